@@ -110,6 +110,85 @@ TEST(SeeThrough, ShowsEachStructureByTheShareThatBoneLetsThrough) {
   }
 }
 
+// A thin nerve that bends in a wide canal, which the walls of the canal do not show.
+std::unique_ptr<volume::Bone> bent_nerve(double radius) {
+  const auto count = static_cast<std::size_t>(kSize * kSize * kSize);
+  std::vector<volume::Field> field(count);
+  std::vector<volume::TissueId> tissue(count);
+  volume::Grid grid;
+  grid.size = math::Ijk::Constant(kSize);
+  grid.voxel = kVoxel;
+  volume::TissueTable tissues;
+  tissues.tissues.push_back({.name = "nerve", .kind = volume::TissueKind::soft, .colour = kNerve});
+  std::size_t at = 0;
+  for (int k = 0; k < kSize; ++k)
+    for (int j = 0; j < kSize; ++j)
+      for (int i = 0; i < kSize; ++i, ++at) {
+        const Vec3 p = Vec3(i, j, k) - Vec3::Constant(0.5 * (kSize - 1));
+        // a part of a ring, tilted
+        const Vec3 q(p.x(), p.y() + 12, p.z() + 0.3 * p.x());
+        const double off = std::hypot(std::hypot(q.x(), q.y()) - 20, q.z());
+        const double box = 20 - p.cwiseAbs().maxCoeff();
+        field[at] = volume::field_from_depth(std::min(box, off - radius - 3));
+        tissue[at] = box < 0        ? volume::TissueId{0}
+                     : off < radius ? volume::TissueId{2}
+                                    : volume::TissueId{1};
+      }
+  return volume::bone_from_arrays(grid, tissues, field, tissue, {}, 0);
+}
+
+// The connected parts of what is set, and of what is not.
+int parts_of(std::vector<bool> set, bool of) {
+  int parts = 0;
+  std::vector<std::size_t> todo;
+  for (std::size_t n = 0; n < set.size(); ++n) {
+    if (set[n] != of) continue;
+    ++parts;
+    todo.push_back(n);
+    while (!todo.empty()) {
+      const std::size_t m = todo.back();
+      todo.pop_back();
+      if (set[m] != of) continue;
+      set[m] = !of;
+      if (m % kWide > 0) todo.push_back(m - 1);
+      if (m % kWide + 1 < kWide) todo.push_back(m + 1);
+      if (m >= kWide) todo.push_back(m - kWide);
+      if (m + kWide < set.size()) todo.push_back(m + kWide);
+    }
+  }
+  return parts;
+}
+
+TEST(SeeThrough, ANerveIsOnePieceWithoutHoles) {
+  BURR_NEEDS_GPU(gpu);
+  for (const double radius : {1.5, 2.0, 3.5}) {
+    SCOPED_TRACE(radius);
+    NoProgress quiet;
+    const auto bone = bent_nerve(radius);
+    Scene scene;
+    ASSERT_TRUE(skin_bone(scene, *bone, 2, quiet).ok());
+    scene.camera.target = bounds(scene).centre();
+    scene.camera.elevation = 1.5707;
+    scene.camera.distance = 0.08;
+    scene.look.opacity = 0;  // the bone itself is not seen
+    scene.look.background_top = scene.look.background_bottom = kBehind;
+    const auto image = gpu.image(scene, kWide, kHigh);
+    ASSERT_TRUE(image.ok()) << image.error().text;
+    std::vector<bool> nerve;
+    for (int y = 0; y < kHigh; ++y)
+      for (int x = 0; x < kWide; ++x) nerve.push_back(at(*image, x, y)[0] > 20);
+    EXPECT_EQ(parts_of(nerve, true), 1);
+    // the arc leaves the block at two sides, so what is around it is one piece too
+    EXPECT_EQ(parts_of(nerve, false), 1);
+    // its area: length of the arc times its width. One pixel of this picture is that wide
+    const double pixel = 2 * 0.08 * std::tan(0.5 * scene.camera.field_of_view) / kHigh;
+    const double arc = 20 * 2 * std::asin(20.0 / 20 * 0.999) * kVoxel;
+    const auto seen = static_cast<double>(std::count(nerve.begin(), nerve.end(), true));
+    EXPECT_GT(seen * pixel * pixel, 0.5 * arc * 2 * radius * kVoxel);
+    EXPECT_LT(seen * pixel * pixel, 1.5 * arc * 2 * radius * kVoxel);
+  }
+}
+
 TEST(SeeThrough, WholeBoneIsThePictureItWas) {
   BURR_NEEDS_GPU(gpu);
   Scene scene = seen_from_top();

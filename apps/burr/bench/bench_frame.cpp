@@ -30,6 +30,7 @@
 #include "bench/full_load_run.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/render/renderer.h"
+#include "burr/render/soft_scene.h"
 #include "burr/sim/session.h"
 #include "burr/surface/mesher.h"
 #include "burr/surface/worker.h"
@@ -226,6 +227,7 @@ Status Desk::settle(Outcome& out) {
   const Status skinned = worker_.first(
       progress(), [&](const surface::Skin& skin) { workshop::put_skin(scene_, skin); });
   if (!skinned) return skinned;
+  if (const Status soft = render::add_soft(scene_, session_.bone(), progress()); !soft) return soft;
   auto start = Clock::now();
   const Status first = renderer_->show(scene_);
   if (!first) return first;

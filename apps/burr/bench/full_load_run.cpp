@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "burr/render/renderer.h"
+#include "burr/render/soft_scene.h"
 #include "burr/rt/idle_loop.h"
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
@@ -73,6 +74,8 @@ class Picture {
     picture->scene_ = workshop::scene_of_work(session.bone(), radius, place.at, -place.into);
     picture->scene_.look = {};
     picture->scene_.tissue_colours = render::colours_of(session.bone().tissues());
+    if (const Status soft = render::add_soft(picture->scene_, session.bone(), progress); !soft)
+      return soft.error();
     const Status skinned = picture->worker_.first(
         progress, [&](const surface::Skin& skin) { workshop::put_skin(picture->scene_, skin); });
     if (!skinned) return skinned.error();

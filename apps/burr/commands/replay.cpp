@@ -11,6 +11,7 @@
 
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
+#include "burr/render/soft_scene.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session_words.h"
 #include "burr/sound/synth.h"
@@ -80,6 +81,7 @@ Status film(const Options& options, record::Player& player) {
   render::Scene scene =
       workshop::scene_of_work(**bone, last->tool.radius, last->contact.proxy, shaft);
   scene.tissue_colours = render::colours_of((*bone)->tissues());
+  if (const Status soft = render::add_soft(scene, **bone, progress()); !soft) return soft;
   const Status possible = set_view(scene, last->contact.proxy, -shaft, options.view);
   if (!possible) return possible;
   surface::Worker worker(**bone, 1);

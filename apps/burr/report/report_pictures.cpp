@@ -8,6 +8,7 @@
 
 #include "burr/metrics/region.h"
 #include "burr/render/picture.h"
+#include "burr/render/soft_scene.h"
 #include "burr/volume/sample.h"
 #include "burr/workshop/work_view.h"
 #include "window/shell/words.h"
@@ -134,6 +135,7 @@ Status ReportArtist::skin(Progress& progress) {
   scene_.look = render::still_look();
   scene_.look.background_top = scene_.look.background_bottom = {0.93F, 0.94F, 0.95F};
   scene_.tissue_colours = render::colours_of(bone.tissues());
+  if (const Status soft = render::add_soft(scene_, bone, progress); !soft) return soft;
   // the last numbers of tissues, if the bone does not use them itself
   constexpr std::size_t kIds = 256, kOwn = 3;
   if (scene_.tissue_colours.size() + kOwn <= kIds) {

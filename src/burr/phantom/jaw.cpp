@@ -210,7 +210,7 @@ Phantom jaw(double voxel, const Variant& variant) {
        .bleeds = 0.3},
       {.name = "inferior alveolar nerve",
        .kind = TissueKind::soft,
-       .colour = {0.98F, 0.85F, 0.25F},
+       .colour = {0.98F, 0.88F, 0.42F},
        .spare = true},
       {.name = "nerve canal bone",
        .colour = {0.94F, 0.84F, 0.60F},
@@ -218,7 +218,7 @@ Phantom jaw(double voxel, const Variant& variant) {
        .spare = true},
       {.name = "marrow (soft tissue)",
        .kind = TissueKind::soft,
-       .colour = {0.76F, 0.46F, 0.38F},
+       .colour = {0.50F, 0.26F, 0.16F},
        .bleeds = 0.3},
   };
   const auto model = std::make_shared<const Jaw>(variant);

@@ -135,15 +135,15 @@ Phantom spine(double voxel, const Variant& variant) {
        .bleeds = 0.15},
       {.name = "dural sac",
        .kind = TissueKind::soft,
-       .colour = {0.93F, 0.86F, 0.66F},
+       .colour = {0.70F, 0.76F, 0.86F},
        .spare = true},
       {.name = "nerve roots",
        .kind = TissueKind::soft,
-       .colour = {0.98F, 0.85F, 0.25F},
+       .colour = {0.98F, 0.88F, 0.42F},
        .spare = true},
       {.name = "marrow (soft tissue)",
        .kind = TissueKind::soft,
-       .colour = {0.76F, 0.46F, 0.38F},
+       .colour = {0.50F, 0.26F, 0.16F},
        .bleeds = 0.3},
   };
   for (std::size_t id = 0; id < phantom.tissues.tissues.size(); ++id)

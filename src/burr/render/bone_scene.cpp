@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "burr/render/soft_scene.h"
 #include "burr/surface/mesher.h"
 
 namespace burr::render {
@@ -43,6 +44,7 @@ Status skin_bone(Scene& scene, const volume::Bone& bone, int threads, Progress& 
   scene.tissue_colours = colours_of(bone.tissues());
   for (int patch = 0; patch < count; ++patch)
     set_patch(scene, patch, std::move(patches[static_cast<std::size_t>(patch)]));
+  if (const Status soft = add_soft(scene, bone, progress); !soft) return soft;
   progress.report(1, "finding the surface");
   return fine();
 }

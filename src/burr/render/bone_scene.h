@@ -11,8 +11,8 @@
 
 namespace burr::render {
 
-// Puts the bone's surface and tissue colours into the scene, in patches numbered as by
-// surface::Mesher; camera and everything else stay. The bone must be at rest. threads: workers, 1
+// Puts the bone's surface, its soft structures, tissue colours and materials into the scene, in
+// patches numbered as by surface::Mesher; camera and everything else stay. The bone must be at rest. threads: workers, 1
 // or more. Errors: Trouble::interrupted when `progress` was cancelled; the scene then has only a
 // part of the patches.
 [[nodiscard]] Status skin_bone(Scene& scene, const volume::Bone& bone, int threads,

@@ -31,6 +31,8 @@ Quality FrameGovernor::begin(const Camera& camera, double now) {
   quality.coarse_px = moving < 2 ? 0 : 3;
   quality.ambient_occlusion_later = still >= 1;
   quality.coarse_still_px = still < 2 ? 0 : 1;
+  quality.grain = moving < 1;
+  quality.grain_still = still < 3;
   quality.refine = !moving_;
   quality.stain_s = still < 1 && moving < 1 ? 0.1 : still < 2 ? 0.5 : 2;
   const int step = steps_[index()].at;
@@ -68,7 +70,7 @@ void FrameGovernor::end(double took, double redrawn, double now) {
 }
 
 const char* FrameGovernor::name(int step) {
-  constexpr std::array<const char*, kSteps> kNames = {"everything", "no hollows", "coarser",
+  constexpr std::array<const char*, kSteps> kNames = {"everything", "no grain", "coarser",
                                                       "fewer samples", "fewest samples"};
   return kNames[static_cast<std::size_t>(std::clamp(step, 0, kSteps - 1))];
 }

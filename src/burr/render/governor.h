@@ -1,6 +1,6 @@
 // render/governor.h - decides what to leave out of the picture to keep the frame rate.
 //
-//     everything -> no hollows -> coarser -> 0.87 of the samples -> 0.75
+//     everything -> no grain, few samples of hollows -> coarser -> 0.87 of the samples -> 0.75
 //
 //     FrameGovernor governor(renderer.software());
 //     each frame:  scene.quality = governor.begin(scene.camera, now);

@@ -6,13 +6,16 @@ namespace burr::render {
 
 struct Quality {
   // for a picture that is drawn whole, as while the eye moves
-  bool ambient_occlusion = true;  // false: no ambient occlusion
+  bool ambient_occlusion = true;  // false: with few samples
   double coarse_px = 0;  // largest error of a coarser surface, in pixels of the window; 0: full
                          // detail
+
+  bool grain = true;  // the fine grain of materials; false: their mean colours
 
   // where the bone changes in front of an eye at rest
   bool ambient_occlusion_later = false;  // keep the old ones there for now
   double coarse_still_px = 0;
+  bool grain_still = true;
 
   // time between two updates of dust, water and blood on the bone (wound.h) [s]
   double stain_s = 0.1;

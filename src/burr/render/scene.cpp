@@ -77,6 +77,11 @@ math::Aabb bounds(const Scene& scene) {
     box.extend(patch.box.lo);
     box.extend(patch.box.hi);
   }
+  for (const SoftStructure& structure : scene.soft) {
+    if (structure.box.empty()) continue;
+    box.extend(structure.box.lo);
+    box.extend(structure.box.hi);
+  }
   return box;
 }
 

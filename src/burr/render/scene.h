@@ -28,15 +28,20 @@
 
 namespace burr::render {
 
-// What milling left on a vertex for a while (wound.h), of 255.
+// What milling left on a vertex (wound.h), of 255.
 struct Stain {
   std::uint8_t fresh = 0;  // cut just now: pale and grainy
-  std::uint8_t wet = 0;    // dark and glossy
-  std::uint8_t dust = 0;   // pale grains lie on it
+  std::uint8_t wet = 0;    // under a film of water
+  std::uint8_t dust = 0;   // bone dust lies on it; with water, a paste
   std::uint8_t blood = 0;
+  // Ridges that the burr's flutes left, which stay: 8 bit, how high; 24 bit, how far along its path
+  // the burr was here, in steps of kAlong.
+  std::uint32_t ridges = 0;
+  static constexpr double kAlong = 5e-6;  // [m]
+  [[nodiscard]] bool passing() const { return (fresh | wet | dust | blood) != 0; }
   [[nodiscard]] bool operator==(const Stain&) const = default;
 };
-static_assert(sizeof(Stain) == 4, "goes to the GPU as it is");
+static_assert(sizeof(Stain) == 8, "goes to the GPU as it is");
 
 // One patch of surface. A renderer keeps its own copy and renews it when `version` differs.
 struct ScenePatch {
@@ -57,6 +62,22 @@ struct SceneBlock {
   std::uint64_t now = 0;     // sum of the patches' present versions
   std::shared_ptr<const CoarseMesh> mesh;  // nullptr: none made
   std::uint64_t versions = 0;              // value of `now` when the mesh was made
+};
+
+// A soft structure (nerve, vessel, dura) with a surface of its own, whole in spite of what is cut.
+struct SoftStructure {
+  volume::TissueId tissue = 0;
+  std::shared_ptr<const CoarseMesh> mesh;  // sent again when the pointer changes
+  math::Aabb box;                          // around its vertices
+};
+
+// How a tissue looks besides its colour; 0..1 each.
+struct Material {
+  float gloss = 0;  // 0 dry bone .. 1 covered with water
+  float grain = 0;  // fine unevenness of the colour, as bone has it
+  float pores = 0;  // dark points where small vessels enter
+  float milk = 0;   // light comes through its edges, as through enamel
+  [[nodiscard]] bool operator==(const Material&) const = default;
 };
 
 // The tool in the hand: a fluted or grainy ball on a shaft, which extends along the tool's +z.
@@ -114,6 +135,8 @@ struct Scene {
   std::vector<int> block_of;           // (patches) the smallest block of each; patches beyond its
                                        // end have none
   std::vector<Colour> tissue_colours;  // index: TissueId
+  std::vector<Material> materials;     // index: TissueId; those beyond its end are plain
+  std::vector<SoftStructure> soft;     // see render/soft_scene.h
   Burr burr;
   std::vector<Marker> markers;
   std::vector<Rod> rods;
@@ -147,7 +170,7 @@ void set_stains(Scene& scene, int index, std::shared_ptr<const std::vector<Stain
 // patches.
 [[nodiscard]] std::uint64_t versions_of(const Scene& scene, const SceneBlock& block);
 
-// The box around all patches; empty if there are none.
+// The box around all patches and soft structures; empty if there are none.
 [[nodiscard]] math::Aabb bounds(const Scene& scene);
 
 // A camera with all of the bone in the picture, as fit() in camera.h.

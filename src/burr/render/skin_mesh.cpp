@@ -48,7 +48,6 @@ SkinMesh::SkinMesh(const surface::Patch& patch) {
                                      std::uint32_t{v.beneath} | std::uint32_t{v.through} << 8 |
                                          std::uint32_t{v.wall} << 16};
                  });
-  walls_ = std::any_of(vertices_.begin(), vertices_.end(), is_wall);
   if (patch.vertices.size() > 65535) {
     large_ = patch.triangles;
     return;

@@ -31,8 +31,6 @@ static_assert(sizeof(SkinVertex) == 20, "goes to the GPU as it is");
   return static_cast<volume::TissueId>(vertex.rest & 0xFFU);
 }
 
-[[nodiscard]] inline bool is_wall(const SkinVertex& vertex) { return vertex.under >> 16 != 0; }
-
 class SkinMesh {
  public:
   explicit SkinMesh(const surface::Patch& patch);
@@ -45,13 +43,11 @@ class SkinMesh {
   // One of the two is empty: 16 bit unless there are too many vertices.
   [[nodiscard]] const std::vector<std::uint16_t>& small_indices() const { return small_; }
   [[nodiscard]] const std::vector<std::uint32_t>& large_indices() const { return large_; }
-  [[nodiscard]] bool has_walls() const { return walls_; }
 
  private:
   std::vector<SkinVertex> vertices_;
   std::vector<std::uint16_t> small_;  // (n x 3)
   std::vector<std::uint32_t> large_;  // (n x 3)
-  bool walls_ = false;
 };
 
 }  // namespace burr::render

@@ -15,10 +15,12 @@ using math::Vec3;
 
 namespace {
 
-constexpr int kRoom = 12;        // least distance of the tool from the border of the grid [cell]
-constexpr double kKnown = 0.3;   // longest pause across which the tool's path is interpolated [s]
-constexpr double kStep = 0.1;    // time step of the blood: one cell per step [s]
-constexpr float kLeast = 1e-3F;  // less than this counts as nothing
+constexpr double kSoftBorder = 6;  // of the grid, over which all fades [cell]
+constexpr int kRoom = 12;          // least distance of the tool from the border of the grid [cell]
+constexpr double kKnown = 0.3;     // longest pause across which the tool's path is interpolated [s]
+constexpr double kStep = 0.1;      // time step of the blood: one cell per step [s]
+constexpr double kLongest = 40;    // of the path, then its length begins again at 0 [m]
+constexpr float kLeast = 1e-3F;    // less than this counts as nothing
 
 // Distance of a point from the line between two points.
 double distance(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -94,7 +96,7 @@ void Wound::dull(double seconds) {
         Cell& cell = cells_[index(i, j, k)];
         State& look = cell.look;
         if (look.fresh <= 0 && look.wet <= 0 && look.dust <= 0 && look.blood <= 0 &&
-            cell.open <= 0 && cell.off >= kFar)
+            cell.open <= 0 && cell.off >= kFar && cell.ridges <= 0)
           continue;
         look.fresh = std::max(0.0F, look.fresh - fresh);
         look.wet = std::max(0.0F, look.wet - wet);
@@ -204,10 +206,21 @@ void Wound::undo(const Tick& tick) {
 void Wound::cut(const Tick& tick, const Vec3& from, double removed) {
   if (!up_) up_ = tick.up.norm() > 0 ? tick.up.normalized().eval() : Vec3::UnitZ();
   airborne_ += removed / kSolidShare;
+  const Vec3 step = tick.tip - from;
+  const Vec3 way = step.norm() > 1e-9 ? step.normalized().eval() : Vec3::Zero().eval();
+  const auto begins = static_cast<float>(along_ - way.dot(from));
+  along_ = std::fmod(along_ + step.norm(), kLongest);
   each_near(from, tick.tip, tick.radius + (kFar - 1) * cell_, [&](Cell& cell, double d) {
     cell.off = std::min(cell.off, static_cast<float>((d - tick.radius) / cell_));
     // a cell and a bit more, so that everything between cell centres is fresh
     if (d > tick.radius + 1.2 * cell_) return;
+    if (tick.diamond) {
+      cell.ridges = 0;
+    } else if (way.x() != 0 || way.y() != 0 || way.z() != 0) {
+      cell.ridges = 1;
+      cell.along = begins;
+      cell.way = way.cast<float>();
+    }
     cell.look.fresh = 1;
     cell.look.dust = cell.look.blood = 0;  // swept away
   });
@@ -217,6 +230,7 @@ void Wound::cover(const Tick& tick, const Vec3& from) {
   each_near(from, tick.tip, tick.radius + 1.2 * cell_, [](Cell& cell, double) {
     cell.open = 0;
     cell.off = kFar;
+    cell.ridges = 0;
     cell.look = {};
   });
 }
@@ -334,6 +348,9 @@ Wound::Cell Wound::mean_at(const Vec3& p) const {
   const Vec3 part = q - low.cast<double>();
   Cell mean;
   mean.off = 0;
+  // what the grid holds ends softly before its border
+  const double inside = std::min(q.minCoeff(), kEdge - 1 - q.maxCoeff());
+  const auto kept = static_cast<float>(std::clamp(inside / kSoftBorder, 0.0, 1.0));
   float surface = 0;  // blood is on the surface only, not beside it
   for (int c = 0; c < 8; ++c) {
     const Ijk by(c & 1, (c >> 1) & 1, c >> 2);
@@ -350,6 +367,8 @@ Wound::Cell Wound::mean_at(const Vec3& p) const {
     surface += weight;
   }
   if (surface > 0) mean.look.blood /= surface;
+  for (float* of : {&mean.look.fresh, &mean.look.wet, &mean.look.dust, &mean.look.blood})
+    *of *= kept;
   return mean;
 }
 

@@ -11,6 +11,8 @@
 //   wet     bone that coolant reaches; dries within kDryTime
 //   dust   bone that is cut dry goes into the air as dust and settles within kDustReach of the tool
 //           on faces that point up; coolant washes it away; the burr sweeps its own cut clean
+//   ridges  fine parallel ridges where a fluted burr cut, across its way; a diamond burr polishes them
+//           away. They stay
 //   blood   comes where a bleeding tissue was opened, runs from cell to cell along the surface,
 //           downwards rather than up, and dries; coolant washes it away and it comes again, less
 //           and less (kClotTime). Wax or cement on it stops it
@@ -19,7 +21,7 @@
 // same ticks. Going back in time clears everything.
 // When a stroke is undone, all this is as it was before that stroke, for the last kStrokes of them;
 // older ones take everything with them but the water. A redo does not bring it again.
-// Thread: one at a time. Frame: world. Units: SI. Memory: 7 MiB, and as much at most for strokes.
+// Thread: one at a time. Frame: world. Units: SI. Memory: 12 MiB, and as much at most for strokes.
 #pragma once
 
 #include <optional>
@@ -67,7 +69,8 @@ class Wound {
     double radius = 0;                    // of the head
     double removed = 0, added = 0;        // since the start [m^3]
     bool irrigated = false;
-    double undone = 0;  // of `removed`, brought back since the start [m^3]
+    double undone = 0;     // of `removed`, brought back since the start [m^3]
+    bool diamond = false;  // the burr has grit in place of flutes
   };
   void see(const Tick& tick);
   // A suction tube's mouth was at this place for so long: water, dust and blood near it are
@@ -101,7 +104,11 @@ class Wound {
     float off = kFar;
     float open = 0;     // how much it bleeds
     bool skin = false;  // holds a piece of surface
+    // ridges: their height, 0..1; how far along its path the burr was at p: along + way . p  [m]
+    float ridges = 0, along = 0;
+    math::Vec3f way = math::Vec3f::Zero();
   };
+  [[nodiscard]] std::uint32_t ridges_at(const math::Vec3& p, float height) const;
   static constexpr float kFar = 4;
   static constexpr int kEdge = 64;  // cells along a side
 
@@ -138,6 +145,7 @@ class Wound {
   math::Ijk low_ = math::Ijk::Zero(), high_ = math::Ijk::Zero();  // only [low, high) may hold
                                                                   // something
   std::optional<Tick> last_;
+  double along_ = 0;            // length of the burr's path while it cut [m]
   double cut_at_ = -1e9;        // when something was removed last [s]
   std::vector<Before> before_;  // strokes, the oldest first
   std::optional<math::Vec3> up_;

@@ -61,6 +61,36 @@ bool Wound::reached(const ScenePatch& patch) const {
          (patch.box.hi.array() >= box.lo.array()).all();
 }
 
+// In a Stain's form: of the cell that the place is in, since the ways of different passes cannot be
+// mixed. Where the cells around it are of other passes, the ridges end.
+std::uint32_t Wound::ridges_at(const Vec3& p, float height) const {
+  constexpr double kSame = 60e-6;  // as far along the path, for cells of one pass [m]
+  const Vec3 q = p / cell_ - first_.cast<double>() - Vec3::Constant(0.5);
+  const Ijk low = q.array().floor().cast<int>(), own = q.array().round().cast<int>();
+  if (low.minCoeff() < 0 || low.maxCoeff() + 1 >= kEdge) return 0;
+  const auto along = [&p](const Cell& cell) {
+    return static_cast<double>(cell.along) + cell.way.cast<double>().dot(p);
+  };
+  const Cell& mine = cells_[index(own.x(), own.y(), own.z())];
+  if (mine.ridges <= 0) return 0;
+  const double here = along(mine);
+  const Vec3 part = q - low.cast<double>();
+  double agree = 0;
+  for (int c = 0; c < 8; ++c) {
+    const Ijk by(c & 1, (c >> 1) & 1, c >> 2);
+    const Cell& cell = cells_[index(low.x() + by.x(), low.y() + by.y(), low.z() + by.z())];
+    if (cell.ridges <= 0 || std::abs(along(cell) - here) > kSame) continue;
+    double product = 1;
+    for (int d = 0; d < 3; ++d) product *= by[d] == 1 ? part[d] : 1 - part[d];
+    agree += product;
+  }
+  const std::uint32_t high = level(height * static_cast<float>(2 * agree - 1));
+  if (high == 0) return 0;
+  constexpr double kMiddle = 1 << 22;  // so that it never is negative
+  const auto steps = static_cast<std::uint32_t>(here / Stain::kAlong + kMiddle) & 0xFFFFFFU;
+  return high | steps << 8;
+}
+
 void Wound::stain(Scene& scene, int patch) {
   ScenePatch& entry = scene.patches[static_cast<std::size_t>(patch)];
   if (!reached(entry)) {
@@ -73,11 +103,13 @@ void Wound::stain(Scene& scene, int patch) {
   stains.reserve(entry.mesh->vertices().size());
   bool any = false;
   for (const SkinVertex& vertex : entry.mesh->vertices()) {
-    State state = at(vertex.p.cast<double>());
+    const Vec3 p = vertex.p.cast<double>();
+    State state = at(p);
     // dust slides off steep faces, and none lies under an overhang
     if (state.dust > 0)
       state.dust *= std::clamp(normal_of(vertex).dot(up) / 0.6F + 0.3F, 0.0F, 1.0F);
-    stains.push_back({level(state.fresh), level(state.wet), level(state.dust), level(state.blood)});
+    stains.push_back({level(state.fresh), level(state.wet), level(state.dust), level(state.blood),
+                      ridges_at(p, 1 - state.dust)});
     any = any || stains.back() != Stain{};
   }
   if (!any)

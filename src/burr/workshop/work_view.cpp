@@ -26,7 +26,8 @@ render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz) {
           row.ledger.removed,
           row.ledger.added,
           row.tool.irrigated,
-          row.ledger.undone};
+          row.ledger.undone,
+          row.tool.kind == tool::BurrKind::diamond};
 }
 
 void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact) {

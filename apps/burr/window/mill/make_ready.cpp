@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "burr/math/rotation.h"
+#include "burr/render/soft_scene.h"
 #include "burr/scenario/open_lesson.h"
 #include "burr/scoring/step_done.h"
 #include "burr/workshop/hand_device.h"
@@ -109,6 +110,7 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
   ready.spared_distance =
       std::make_unique<const workshop::SparedDistance>(std::move(*spared_distance));
   ready.scene.tissue_colours = render::colours_of(bone.tissues());
+  if (const Status soft = render::add_soft(ready.scene, bone, progress); !soft) return soft.error();
   ready.worker = std::make_unique<surface::Worker>(bone, 1);
   const Status status = ready.worker->first(
       progress, [&ready](const surface::Skin& skin) { workshop::put_skin(ready.scene, skin); });

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "burr/render/camera.h"
+#include "burr/render/soft_scene.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/recording.h"
 #include "window/shell/words.h"
@@ -54,6 +55,8 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   out.notices = out.player->notices();
 
   out.scene.tissue_colours = render::colours_of(out.bone->tissues());
+  if (const Status soft = render::add_soft(out.scene, *out.bone, progress); !soft)
+    return soft.error();
   out.worker = std::make_unique<surface::Worker>(*out.bone, 1);
   const Status skinned = out.worker->first(
       progress, [&out](const surface::Skin& skin) { workshop::put_skin(out.scene, skin); });

@@ -11,7 +11,7 @@ namespace {
 
 Result<GLuint> compile(bool es, GLenum kind, std::initializer_list<const char*> source) {
   const char* head = es ? "#version 300 es\nprecision highp float;\nprecision highp int;\n"
-                          "precision highp sampler2D;\nprecision highp usampler2D;\n"
+                          "precision highp sampler2D;\nprecision highp sampler3D;\n"
                         : "#version 330 core\n";
   std::vector<const char*> text = {head};
   text.insert(text.end(), source);

@@ -28,18 +28,11 @@ constexpr int kMostPicture = 65536;
 // ---- start
 
 Status Renderer::Work::start() {
-  constexpr const char *kColours = gl::kColourFunctions, *kClip = "#define CLIP\n",
-                       *kStained = "#define STAINED\n";
+  constexpr const char* kColours = gl::kColourFunctions;
   const struct {
     Program* program;
     std::initializer_list<const char*> vertex, fragment;
-  } all[] = {{&skin_mesh, {gl::kSkinVertex}, {gl::kMeshFragment}},
-             {&clipped_skin, {kClip, gl::kSkinVertex}, {kClip, gl::kMeshFragment}},
-             {&stained_skin, {kStained, gl::kSkinVertex}, {kStained, gl::kMeshFragment}},
-             {&clipped_stained_skin,
-              {kClip, kStained, gl::kSkinVertex},
-              {kClip, kStained, gl::kMeshFragment}},
-             {&mesh, {gl::kMeshVertex}, {gl::kMeshFragment}},
+  } all[] = {{&mesh, {gl::kMeshVertex}, {gl::kMeshFragment}},
              {&occlusion, {gl::kScreenVertex}, {gl::kOcclusionFragment}},
              {&soften, {gl::kScreenVertex}, {gl::kSoftenFragment}},
              {&shrink, {gl::kScreenVertex}, {kColours, gl::kShrinkFragment}}};
@@ -48,8 +41,8 @@ Status Renderer::Work::start() {
     if (!linked) return linked.error();
     *one.program = std::move(*linked);
   }
-  for (const Status& made :
-       {lighting.start(context->es()), through.start(context->es()), overlay.make(context->es())})
+  for (const Status& made : {skins.start(context->es()), lighting.start(context->es()),
+                             through.start(context->es()), overlay.make(context->es())})
     if (!made) return made;
   GLint texture = 0;
   std::array<GLint, 2> viewport{};
@@ -178,6 +171,7 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
       Work::Parts parts;
       parts.extent = bone;
       parts.bone.add(frame.all());
+      parts.grain = !scene.look.plain;
       parts.light_occlusion = has_occlusion(scene.look);
       if (parts.light_occlusion) parts.ambient_occlusion.add(frame.all());
       w.paint(scene, frame, parts, pieces);

@@ -9,14 +9,7 @@
 namespace burr::render::gl {
 
 Status SeeThrough::start(bool es) {
-  constexpr const char *kWalls = "#define WALLS\n", *kClip = "#define CLIP\n";
-  Result<Program> linked = Program::link(es, {kWalls, kSkinVertex}, {kWalls, kMeshFragment});
-  if (!linked) return linked.error();
-  walls_ = std::move(*linked);
-  linked = Program::link(es, {kWalls, kClip, kSkinVertex}, {kWalls, kClip, kMeshFragment});
-  if (!linked) return linked.error();
-  clipped_walls_ = std::move(*linked);
-  linked = Program::link(es, {kScreenVertex}, {kThroughFragment});
+  Result<Program> linked = Program::link(es, {kScreenVertex}, {kThroughFragment});
   if (!linked) return linked.error();
   through_ = std::move(*linked);
   return fine();
@@ -37,7 +30,7 @@ Status SeeThrough::resize(int wide, int high) {
   return fine();
 }
 
-Skin::Drawn SeeThrough::paint(const Scene& scene, const Frame& frame, const Rect& r, Skin& skin,
+Skin::Drawn SeeThrough::paint(const Scene& scene, const Frame& frame, const Rect& r, const Of& of,
                               const std::function<void()>& tool) {
   if (r.empty()) return {};
   glBindFramebuffer(GL_FRAMEBUFFER, geometry_.get());
@@ -51,25 +44,12 @@ Skin::Drawn SeeThrough::paint(const Scene& scene, const Frame& frame, const Rect
   glClearBufferfv(GL_DEPTH, 0, &farthest);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
-  glDisable(GL_CULL_FACE);
-
-  Program& program = scene.clip ? clipped_walls_ : walls_;
-  program.use();
-  const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
-  const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
-  program.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
-  program.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
-  program.set("tint_kind", Eigen::Vector4f(1, 1, 1, 1));
-  program.set("tissue_colours", 0);
-  if (scene.clip) {
-    const math::Vec3& n = scene.clip->n;
-    Eigen::Vector4f plane;
-    plane << n.cast<float>(), static_cast<float>(-n.dot(scene.clip->p));
-    program.set("plane", plane);
-  }
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, skin.colours());
-  const Skin::Drawn drawn = skin.draw_walls(planes_of(r, frame));
+  if (scene.clip)
+    glDisable(GL_CULL_FACE);
+  else
+    glEnable(GL_CULL_FACE);
+  of.programs.use({false, of.grain, scene.clip.has_value()}, scene, frame, of.skin.colours());
+  const Skin::Drawn drawn = of.skin.draw_soft(scene.camera.eye(), planes_of(r, frame), true);
   glEnable(GL_CULL_FACE);
   tool();
   return drawn;

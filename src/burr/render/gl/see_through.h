@@ -3,8 +3,8 @@
 //
 // One layer of bone is blended over the nearest of those; each is lit by itself. This needs no
 // sorting of triangles and no discarding of pixels, and costs one more picture with few triangles.
-// Every depth is right except bone behind bone, which is left out: it does not darken what lies
-// deeper. Nothing is left out because bone hides it.
+// Soft structures have surfaces of their own (render/soft_scene.h). Every depth is right except bone
+// behind bone, which is left out: it does not darken what lies deeper. Nothing is left out because bone hides it.
 //
 // Memory: 16 B per sample, allocated with the first transparent picture. For use of this room only.
 // Thread: main, with the context current.
@@ -14,6 +14,7 @@
 
 #include "burr/render/gl/lighting.h"
 #include "burr/render/gl/skin.h"
+#include "burr/render/gl/skin_programs.h"
 
 namespace burr::render::gl {
 
@@ -23,7 +24,12 @@ class SeeThrough {
   Status resize(int wide, int high);
 
   // Draws what is behind the bone. tool: draws the tool into the bound framebuffer.
-  Skin::Drawn paint(const Scene& scene, const Frame& frame, const Rect& r, Skin& skin,
+  struct Of {
+    Skin& skin;
+    SkinPrograms& programs;
+    bool grain = false;
+  };
+  Skin::Drawn paint(const Scene& scene, const Frame& frame, const Rect& r, const Of& of,
                     const std::function<void()>& tool);
   // Lights it and blends it over the bone in `front`, which is lit already. The vertex array of the
   // screen triangle must be bound.
@@ -31,7 +37,7 @@ class SeeThrough {
              Lighting& lighting);
 
  private:
-  Program walls_, clipped_walls_, through_;
+  Program through_;
   int width_ = 0, height_ = 0;
   Texture colour_, normal_, depth_, lit_;
   Framebuffer geometry_, lit_at_;

@@ -1,7 +1,7 @@
 // render/gl/shaders.h - the programs for the GPU, in the common part of GLSL 3.30 and GLSL ES 3.00.
 //
-//     skin     vertices of the bone, with folded normals and tissues, for mesh
-//     mesh     triangles -> colour and kind, normal, depth ("G-buffer")
+//     skin     bone and soft structures -> colour and kind, normal, depth ("G-buffer")
+//     mesh     the same for tool and marks
 //     hollow   normal, depth -> ambient occlusion, at full or half resolution
 //     soften   ambient occlusion -> the same without noise, smoothed within each surface
 //     light    all of these -> the picture
@@ -31,22 +31,28 @@ void main() {
 }
 )";
 
-// For bone: normal, tissue and what shines through it, in 64 bits (render/skin_mesh.h).
+// For bone and soft structures: normal, tissue and what shines through it, in 64 bits
+// (render/skin_mesh.h). STAINED: with what milling left; GRAIN: with the fine grain of materials;
+// CLIP: cut open.
 inline constexpr const char* kSkinVertex = R"(
 layout(location = 0) in vec3 at_p;
 layout(location = 1) in uvec2 at_rest;
 uniform mat4 clip_from_model;
 uniform mat3 view_from_model_n;
-uniform sampler2D tissue_colours;
+uniform sampler2D tissue_colours;  // colour, gloss; below it grain, pores, milk
 out vec3 n;
-out vec3 colour;
-#ifdef WALLS
-out float wall;
+out vec4 colour;  // and gloss
+#ifdef GRAIN
+uniform float noises_per_m;
+out vec3 place;
+out vec3 grain;
 #endif
 #ifdef STAINED
-layout(location = 2) in vec4 at_stain;  // fresh, wet, dust, blood
-uniform float grains_per_m;
-out float wet;
+layout(location = 2) in vec4 at_stain;
+layout(location = 3) in uint at_ridges;
+uniform float turns_per_step;  // phase of the ridges  [rad]
+out vec4 stain;                // fresh, wet, dust, blood
+out vec2 ridge;                // phase, height
 #endif
 #ifdef CLIP
 uniform vec4 plane;  // hidden where dot(plane, (p, 1)) > 0; world
@@ -62,29 +68,20 @@ void main() {
   float t = max(-m.z, 0.0);
   m.xy += vec2(m.x >= 0.0 ? -t : t, m.y >= 0.0 ? -t : t);
   n = view_from_model_n * normalize(m);
-  vec3 bone = texelFetch(tissue_colours, ivec2(int(at_rest.x & 255u), 0), 0).rgb;
+  int tissue = int(at_rest.x & 255u);
+  colour = texelFetch(tissue_colours, ivec2(tissue, 0), 0);
   vec3 under = texelFetch(tissue_colours, ivec2(int(at_rest.y & 255u), 0), 0).rgb;
-#ifdef WALLS
-  colour = under;
-  wall = float(at_rest.y >> 16u & 255u) / 255.0;
-#else
-  colour = mix(bone, under, float(at_rest.y >> 8u & 255u) / 255.0);
+  // the wall of a hollow has less of it: what fills the hollow has a surface of its own
+  float wall = float(at_rest.y >> 16u & 255u) / 255.0;
+  colour.rgb = mix(colour.rgb, under, float(at_rest.y >> 8u & 255u) / 255.0 * (1.0 - 0.5 * wall));
+#ifdef GRAIN
+  place = at_p * noises_per_m;
+  grain = texelFetch(tissue_colours, ivec2(tissue, 1), 0).rgb;
 #endif
 #ifdef STAINED
-  // fresh bone is paler and shows its grain: every grain gets its own pseudo-random number
-  uvec3 q = uvec3(ivec3(floor(at_p * grains_per_m + 0.25)));
-  uint h = q.x * 0x9E3779B1u ^ q.y * 0x85EBCA77u ^ q.z * 0xC2B2AE3Du;
-  h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
-  h ^= h >> 12u;
-  float grain = float(h & 255u) / 127.5 - 1.0;
-  colour = mix(colour, vec3(1.0, 0.98, 0.94), 0.5 * at_stain.x);
-  colour *= 1.0 + 0.07 * grain * at_stain.x;
-  colour *= 1.0 - 0.22 * at_stain.y;
-  // dust is drawn in grains: the more dust, the more grains
-  float lies = smoothstep(0.0, 0.35, at_stain.z * 1.35 - float(h >> 8u & 255u) / 255.0);
-  colour = mix(colour, vec3(0.96, 0.945, 0.91) * (1.0 + 0.05 * grain), 0.9 * lies);
-  colour = mix(colour, vec3(0.40, 0.03, 0.03), 0.92 * smoothstep(0.0, 0.6, at_stain.w));
-  wet = max(at_stain.y * (1.0 - lies), 0.8 * at_stain.w);
+  stain = at_stain;
+  // the length begins again after some thousands of ridges, while single precision holds it
+  ridge = vec2(float((at_ridges >> 8u) % 286720u) * turns_per_step, float(at_ridges & 255u) / 255.0);
 #endif
 }
 )";
@@ -92,45 +89,91 @@ void main() {
 // kind, in the alpha of the colour: 0 nothing, 1 bone (wet down to 0.82), 2/3 tool, 1/3 mark.
 // Normals are written unfolded, at 3 x 10 bit: to fold them here and unfold them in each later step
 // cost a tenth of a picture's time with software rendering.
+inline constexpr const char* kSkinFragment = R"(
+in vec3 n;
+in vec4 colour;
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out vec4 out_n;
+#ifdef GRAIN
+in vec3 place;
+in vec3 grain;            // grain, pores, milk
+uniform sampler3D noise;  // gl/noise.h
+#endif
+#ifdef STAINED
+in vec4 stain;
+in vec2 ridge;
+#endif
+#ifdef CLIP
+in float beyond;
+uniform vec3 plane_n;  // view
+#endif
+void main() {
+  vec3 k = n, c = colour.rgb;
+  float wet = colour.a;
+#ifdef CLIP
+  if (beyond > 0.0) discard;
+  // a back face can be seen only through the section plane: it is drawn as the section's surface
+  if (!gl_FrontFacing) {
+    k = plane_n;
+    c = mix(c, vec3(0.80, 0.55, 0.45), 0.5);
+    wet = 0.0;
+  }
+#endif
+  float cloud = 0.5, speck = 0.5;
+#ifdef GRAIN
+  vec4 near = texture(noise, place), wide = texture(noise, place * 0.371 + 0.13);
+  cloud = near.r;
+  speck = near.b;
+  // blotches, warmer where they are darker, and a fine grain
+  float blotch = wide.r - 0.5;
+  c *= 1.0 + grain.x * (0.20 * (cloud - 0.5) + 0.12 * (speck - 0.5) + blotch * vec3(0.12, 0.16, 0.26));
+  // where vessels enter; and the spaces of spongy bone, which hold marrow
+  float hole = near.g, marrow = max(2.0 * grain.y - 1.0, 0.0) * smoothstep(0.48, 0.66, cloud);
+  c = mix(c, vec3(0.56, 0.29, 0.21), 0.55 * marrow);
+  c *= 1.0 - 0.9 * min(grain.y, 0.5) * hole * vec3(0.8, 0.95, 1.0);
+  k += 0.16 * grain.x * (vec3(speck, near.a, wide.b) - 0.5);
+  // edges of what light passes through are bluish
+  float edge = 1.0 - abs(n.z);
+  c = mix(c, vec3(0.70, 0.79, 0.90), grain.z * (0.12 + 0.45 * edge * edge));
+#endif
+#ifdef STAINED
+#ifdef GRAIN
+  // fine ridges across the way of a fluted burr; none where a pixel holds several of them
+  vec2 way = vec2(dFdx(ridge.x), dFdy(ridge.x));
+  float per_pixel = length(way), seen = ridge.y * (1.0 - smoothstep(0.8, 1.8, per_pixel));
+  k.xy += 0.13 * seen * sin(ridge.x) * way / max(per_pixel, 1e-4);
+  c *= 1.0 - 0.035 * seen * (0.5 - 0.5 * cos(ridge.x));
+#endif
+  wet *= 1.0 - max(stain.x, 0.8 * ridge.y);  // the lining was cut away
+  c = mix(c, vec3(0.97, 0.95, 0.90), 0.38 * stain.x);
+  // a film of water: uneven at its edge, closed inside
+  float film = smoothstep(0.0, 0.7, stain.y * (1.6 - 0.6 * cloud) - 0.12 * cloud);
+  c *= 1.0 - 0.24 * film;
+  // dust lies in soft heaps; in water it is a smooth paste
+  float heaps = mix(1.9 * stain.z - 0.9 * cloud + 0.12 * (speck - 0.5), stain.z, 0.6 * film);
+  float lies = smoothstep(0.0, 0.75, heaps);
+  c = mix(c, mix(vec3(0.95, 0.93, 0.88), vec3(0.80, 0.76, 0.69), film) * (0.94 + 0.12 * speck), 0.88 * lies);
+  wet = max(wet * (1.0 - lies), film * (1.0 - 0.5 * lies));
+  // blood: a thin layer is bright, a thick one dark
+  float thick = stain.w, red = smoothstep(0.0, 0.45, thick * (1.25 - 0.5 * cloud));
+  c = mix(c, mix(vec3(0.62, 0.10, 0.07), vec3(0.34, 0.02, 0.02), thick), 0.93 * red);
+  wet = max(wet, 0.9 * red);
+#endif
+  out_colour = vec4(c, 1.0 - 0.18 * clamp(wet, 0.0, 1.0));  // the lighting step reads the wetness
+  out_n = vec4(clamp(k, -1.0, 1.0) * 0.5 + 0.5, 1.0);
+}
+)";
+
+// For tool and marks.
 inline constexpr const char* kMeshFragment = R"(
 in vec3 n;
 in vec3 colour;
 uniform vec4 tint_kind;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out vec4 out_n;
-#ifdef CLIP
-in float beyond;
-uniform vec3 plane_n;  // view
-#endif
-#ifdef WALLS
-in float wall;
-#endif
-#ifdef STAINED
-in float wet;
-#endif
 void main() {
-  vec3 k = n, c = colour;
-#ifdef WALLS
-#ifdef CLIP
-  if (beyond > 0.0) discard;
-#endif
-  // n is the bone's normal, which points into the tissue; seen from the bone's side, the wall has
-  // the opposite normal
-  if (wall < 0.2) discard;
-  if (!gl_FrontFacing) k = -n;
-#elif defined(CLIP)
-  if (beyond > 0.0) discard;
-  // a back face can be seen only through the section plane: it is drawn as the section's surface
-  if (!gl_FrontFacing) {
-    k = plane_n;
-    c = mix(c, vec3(0.80, 0.55, 0.45), 0.5);
-  }
-#endif
-  out_colour = vec4(c * tint_kind.rgb, tint_kind.a);
-#ifdef STAINED
-  out_colour.a -= 0.18 * wet;  // still bone; the lighting step reads the wetness
-#endif
-  out_n = vec4(k * 0.5 + 0.5, 1.0);
+  out_colour = vec4(colour * tint_kind.rgb, tint_kind.a);
+  out_n = vec4(n * 0.5 + 0.5, 1.0);
 }
 )";
 
@@ -353,17 +396,22 @@ void main() {
   // in hollows all of the ambient light and a part of the lamps' light is blocked
   vec3 light = direct * (0.4 + 0.6 * open) + around * open;
 
-  // the exponent of the highlight is 28 for bone, 60 for steel
-  float x = max(dot(n, normalize(key_towards + eye)), 0.0);
+  // water stands in hollows, with a calmer face that turns to the eye
+  float wet = bone ? (1.0 - c.a) / 0.18 : 0.0;
+  float pool = wet * (1.0 - open);
+  vec3 face = normalize(n + (0.8 * pool) * eye);
+  // the exponent of the highlight is 28 for bone, 60 for steel; water has one of 60 around one of 240
+  float x = max(dot(face, normalize(key_towards + eye)), 0.0);
   float x4 = x * x * x * x, x12 = x4 * x4 * x4, x28 = x12 * x12 * x4;
   float shine = bone ? x28 : x28 * x28 * x4;
   float own = bone ? gloss : 0.45;
-  if (bone) {  // wet: a sharper, stronger highlight
-    float wet = (1.0 - c.a) / 0.18;
-    own += 0.5 * wet;
-    shine = mix(shine, x28 * x28 * x4, wet);
-  }
-  vec3 colour = albedo * light + key_light * (own * shine * step(1e-4, lit) * open);
+  float x60 = x28 * x28 * x4, x120 = x60 * x60;
+  own += 0.6 * wet;
+  shine = mix(shine, 0.4 * x60 + x120 * x120, wet);
+  vec3 colour = albedo * light * (1.0 - 0.35 * pool) + key_light * (own * shine * step(1e-4, lit) * open);
+  // a film mirrors the room where it is seen edge-on (Schlick 1994)
+  float grazing = 1.0 - max(dot(face, eye), 0.0), g2 = grazing * grazing;
+  colour += vec3(0.55, 0.62, 0.70) * (wet * (0.02 + 0.45 * g2 * g2 * grazing) * (0.35 + 0.65 * open));
 #ifdef OTHERS
   // steel reflects the room: bright above, dark below
   float mirrored = smoothstep(-0.2, 0.9, 2.0 * dot(n, eye) * n.y - eye.y);

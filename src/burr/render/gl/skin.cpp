@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
+
+#include "burr/render/soft_part.h"
 
 namespace burr::render::gl {
 
@@ -78,9 +81,11 @@ bool inside(const math::Aabb& box, const std::array<Eigen::Vector4d, 6>& planes)
 }  // namespace
 
 int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
-  const bool recolour = colour_row_.get() == 0 || scene.tissue_colours != colours_;
+  const bool recolour =
+      colour_row_.get() == 0 || scene.tissue_colours != colours_ || scene.materials != materials_;
   if (recolour) {
     colours_ = scene.tissue_colours;
+    materials_ = scene.materials;
     send_colours();
   }
   if (patches_.size() > scene.patches.size()) {
@@ -111,8 +116,27 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
     for (Block& block : blocks_) block.laid_out = false;
   }
   known_ = scene.changes.newest();
+  update_soft(scene, changed);
   update_blocks(scene);
   return sent;
+}
+
+void Skin::update_soft(const Scene& scene, std::vector<math::Aabb>& changed) {
+  for (std::size_t i = scene.soft.size(); i < soft_.size(); ++i) changed.push_back(soft_[i].box);
+  soft_.resize(scene.soft.size());
+  for (std::size_t i = 0; i < soft_.size(); ++i) {
+    const SoftStructure& structure = scene.soft[i];
+    Soft& part = soft_[i];
+    if (part.mesh == structure.mesh) continue;
+    if (!part.levels.empty()) changed.push_back(part.box);
+    part.mesh = structure.mesh;
+    part.box = structure.box;
+    part.levels.clear();
+    if (part.mesh == nullptr || part.mesh->vertices.empty()) continue;
+    part.open = (part.mesh->vertices.front().under & kOpen) != 0;
+    send(part, *part.mesh);
+    changed.push_back(part.box);
+  }
 }
 
 // Blocks look the same as their patches, so this changes nothing in the picture.
@@ -148,8 +172,8 @@ void Skin::find_stained(const Scene& scene) {
   stained_ = false;
   for (Block& part : blocks_) part.stained = false;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    if (patches_[i].stains == nullptr) continue;
-    stained_ = true;
+    stained_ = stained_ || patches_[i].stains != nullptr;
+    if (!patches_[i].passing) continue;
     int b = i < scene.block_of.size() ? scene.block_of[i] : -1;
     for (; b >= 0; b = scene.blocks[static_cast<std::size_t>(b)].outer)
       blocks_[static_cast<std::size_t>(b)].stained = true;
@@ -174,15 +198,17 @@ void Skin::find_box(Block& part, const Scene& scene) const {
 
 void Skin::send_colours() {
   constexpr std::size_t kRow = 256;
-  std::array<std::array<std::uint8_t, 4>, kRow> row{};
+  std::array<std::array<std::uint8_t, 4>, 2 * kRow> rows{};
   for (std::size_t t = 0; t < kRow; ++t) {
     const Colour colour = t < colours_.size() ? colours_[t] : Colour{1, 1, 1};
-    row[t] = {unorm(colour[0]), unorm(colour[1]), unorm(colour[2]), 255};
+    const Material of = t < materials_.size() ? materials_[t] : Material{};
+    rows[t] = {unorm(colour[0]), unorm(colour[1]), unorm(colour[2]), unorm(of.gloss)};
+    rows[kRow + t] = {unorm(of.grain), unorm(of.pores), unorm(of.milk), 255};
   }
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, colour_row_.make());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(kRow), 1, 0, GL_RGBA,
-               GL_UNSIGNED_BYTE, row.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(kRow), 2, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, rows.data());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
@@ -191,28 +217,6 @@ namespace {
 
 void fill(GLenum target, const void* values, std::size_t bytes) {
   glBufferData(target, static_cast<GLsizeiptr>(bytes), values, GL_DYNAMIC_DRAW);
-}
-
-template <class Index>
-void fill_indices(const std::vector<Index>& all, const std::vector<Index>& walls) {
-  const std::size_t first = all.size() * sizeof(Index), more = walls.size() * sizeof(Index);
-  if (walls.empty()) return fill(GL_ELEMENT_ARRAY_BUFFER, all.data(), first);
-  fill(GL_ELEMENT_ARRAY_BUFFER, nullptr, first + more);
-  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(first), all.data());
-  glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLintptr>(first),
-                  static_cast<GLsizeiptr>(more), walls.data());
-}
-
-// The triangles that touch a wall.
-template <class Index>
-std::vector<Index> walls_of(const SkinMesh& mesh, const std::vector<Index>& all) {
-  std::vector<Index> walls;
-  if (!mesh.has_walls()) return walls;
-  for (std::size_t t = 0; t + 2 < all.size(); t += 3)
-    if (is_wall(mesh.vertices()[all[t]]) || is_wall(mesh.vertices()[all[t + 1]]) ||
-        is_wall(mesh.vertices()[all[t + 2]]))
-      walls.insert(walls.end(), {all[t], all[t + 1], all[t + 2]});
-  return walls;
 }
 
 // The offsets of position, normal and tissue in a vertex.
@@ -244,36 +248,43 @@ void Skin::send(Patch& part, const ScenePatch& patch) {
   glBindBuffer(GL_ARRAY_BUFFER, part.vertices.make());
   fill(GL_ARRAY_BUFFER, mesh.vertices().data(), mesh.vertices().size() * sizeof(SkinVertex));
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.make());
-  const auto with_walls = [&](const auto& all, GLenum type) {
-    const auto walls = walls_of(mesh, all);
-    part.type = type;
-    part.walls = {0, static_cast<GLsizei>(all.size()), static_cast<GLsizei>(walls.size())};
-    fill_indices(all, walls);
-  };
-  if (mesh.large_indices().empty())
-    with_walls(mesh.small_indices(), GL_UNSIGNED_SHORT);
+  const bool large = !mesh.large_indices().empty();
+  part.type = large ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT;
+  if (large)
+    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.large_indices().data(),
+         mesh.large_indices().size() * sizeof(std::uint32_t));
   else
-    with_walls(mesh.large_indices(), GL_UNSIGNED_INT);
+    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.small_indices().data(),
+         mesh.small_indices().size() * sizeof(std::uint16_t));
   if (fresh) lay_out();
 }
 
 // Sends the stains. The vertex array exists, unless the patch has no surface.
 void Skin::send_stains(Patch& part, const ScenePatch& patch) {
+  const bool passed =
+      std::exchange(part.passing, patch.stains != nullptr &&
+                                      std::any_of(patch.stains->begin(), patch.stains->end(),
+                                                  [](const Stain& s) { return s.passing(); }));
+  other_stains_ = other_stains_ || passed != part.passing;
   part.stains = patch.stains;
   if (part.array.get() == 0) return;
   glBindVertexArray(part.array.get());
   if (patch.mesh == nullptr || part.stains == nullptr ||
       part.stains->size() != patch.mesh->vertices().size()) {
     glDisableVertexAttribArray(2);
+    glDisableVertexAttribArray(3);
     return;
   }
   glBindBuffer(GL_ARRAY_BUFFER, part.stain_values.make());
   fill(GL_ARRAY_BUFFER, part.stains->data(), part.stains->size() * sizeof(Stain));
   glEnableVertexAttribArray(2);
   glVertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Stain), nullptr);
+  const auto* behind_look = reinterpret_cast<const void*>(offsetof(Stain, ridges));
+  glEnableVertexAttribArray(3);
+  glVertexAttribIPointer(3, 1, GL_UNSIGNED_INT, sizeof(Stain), behind_look);
 }
 
-void Skin::send(Block& part, const CoarseMesh& mesh) {
+void Skin::send(Part& part, const CoarseMesh& mesh) {
   part.spread = std::numbers::pi;  // so large a part faces all directions
   part.type = GL_UNSIGNED_INT;
   part.levels.clear();
@@ -301,11 +312,20 @@ void Skin::draw(const Part& part, const Part::Level& level, Drawn& drawn) {
   drawn.triangles += level.count / 3;
 }
 
-Skin::Drawn Skin::draw_walls(const Planes& planes) {
+const Skin::Part::Level& Skin::coarsest(const Part& part, const Vec3& eye) const {
+  const double nearest =
+      std::max(0.0, (part.box.centre() - eye).norm() - 0.5 * part.box.extent().norm());
+  const Part::Level* level = &part.levels.front();
+  for (const Part::Level& coarser : part.levels)
+    if (coarser.error <= error_share_ * nearest) level = &coarser;
+  return *level;
+}
+
+Skin::Drawn Skin::draw_soft(const Vec3& eye, const Planes& planes, bool open) {
   Drawn drawn;
-  for (const Patch& patch : patches_)
-    if (!patch.levels.empty() && patch.walls.count > 0 && !outside(patch.box, planes))
-      draw(patch, patch.walls, drawn);
+  for (const Soft& part : soft_)
+    if (!part.levels.empty() && (open || !part.open) && !outside(part.box, planes))
+      draw(part, coarsest(part, eye), drawn);
   return drawn;
 }
 
@@ -356,6 +376,7 @@ Skin::Drawn Skin::draw(const Vec3& eye, const Planes& planes, bool both_sides,
                        const Hidden* hidden) {
   Drawn drawn;
   glVertexAttrib4f(2, 0, 0, 0, 0);  // for patches without stains
+  glVertexAttribI4ui(3, 0, 0, 0, 0);
   both_sides_ = both_sides;
   asked_.clear();
   if (blocks_.empty() || error_share_ <= 0)

@@ -22,7 +22,7 @@ class Skin {
   int update(const Scene& scene, std::vector<math::Aabb>& changed);
   // True: at least one patch has a Stain (render/wound.h).
   [[nodiscard]] bool stained() const { return stained_; }
-  // One row of 256 colours, indexed by tissue.
+  // Two rows of 256, indexed by tissue: colour and gloss; grain, pores, milk.
   [[nodiscard]] GLuint colours() const { return colour_row_.get(); }
 
   struct Drawn {
@@ -42,8 +42,8 @@ class Skin {
   using Planes = std::array<Eigen::Vector4d, 6>;
   // both_sides: draw triangles that are turned away too.
   Drawn draw(const math::Vec3& eye, const Planes& planes, bool both_sides, const Hidden* hidden);
-  // Draws the walls of the space that soft tissue fills, both sides, even where bone hides them.
-  Drawn draw_walls(const Planes& planes);
+  // Draws the soft structures, which have no stains; open: also the parts that no bone covers.
+  Drawn draw_soft(const math::Vec3& eye, const Planes& planes, bool open);
 
  private:
   struct Part {
@@ -56,7 +56,6 @@ class Skin {
     };
     std::vector<Level> levels;  // empty: nothing to draw
     GLenum type = GL_UNSIGNED_SHORT;
-    Level walls;  // after all levels in `indices`: triangles beside soft tissue
     math::Aabb box;
     math::Vec3 facing = math::Vec3::Zero();  // axis of the cone of the triangles' normals
     double spread = 0;                       // half angle of the cone; pi: all directions [rad]
@@ -66,6 +65,7 @@ class Skin {
     std::uint64_t version = 0;
     std::shared_ptr<const std::vector<Stain>> stains;
     Buffer stain_values;
+    bool passing = false;  // some of its stains pass, and a coarser mesh must not hide them
   };
   struct Block : Part {
     std::vector<int> patches, inner;
@@ -73,7 +73,11 @@ class Skin {
     std::shared_ptr<const CoarseMesh> mesh;
     std::uint64_t now = 0;  // SceneBlock::now; its box is that of its patches
     bool of_now = false;    // its mesh was made from the present patches
-    bool stained = false;   // one of its patches has a Stain, which the mesh does not show
+    bool stained = false;   // one of its patches has a Stain that passes; the mesh shows none
+  };
+  struct Soft : Part {
+    std::shared_ptr<const CoarseMesh> mesh;
+    bool open = false;  // no bone covers it
   };
   // A part and the level to draw it at.
   struct Asked {
@@ -82,8 +86,10 @@ class Skin {
   };
 
   void send(Patch& part, const ScenePatch& patch);
-  static void send_stains(Patch& part, const ScenePatch& patch);
-  static void send(Block& part, const CoarseMesh& mesh);
+  void send_stains(Patch& part, const ScenePatch& patch);
+  static void send(Part& part, const CoarseMesh& mesh);
+  void update_soft(const Scene& scene, std::vector<math::Aabb>& changed);
+  [[nodiscard]] const Part::Level& coarsest(const Part& part, const math::Vec3& eye) const;
   static void draw(const Part& part, const Part::Level& level, Drawn& drawn);
   // Adds what must be drawn of it to asked_. Returns the cost in triangles.
   long ask(Patch& patch, const math::Vec3& eye, const Planes& planes);
@@ -96,14 +102,16 @@ class Skin {
 
   std::vector<Patch> patches_;
   std::vector<Block> blocks_;
+  std::vector<Soft> soft_;
   std::vector<Asked> asked_;          // parts of this draw
   std::vector<math::Vec3f> normals_;  // of the patch being sent
   double error_share_ = 0;
   bool stained_ = false;
-  bool other_stains_ = false;  // some patch has got or lost its Stain
+  bool other_stains_ = false;  // some patch has got or lost a Stain that passes
   std::uint64_t known_ = 0;    // last seen number of the scene's changes
   bool both_sides_ = false;    // in this draw
   std::vector<Colour> colours_;
+  std::vector<Material> materials_;
   Texture colour_row_;
 };
 

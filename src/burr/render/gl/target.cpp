@@ -81,12 +81,6 @@ void Target::copy_bone(int x0, int y0, int x1, int y1) const {
   glDrawBuffers(2, kBoth);
 }
 
-void Target::clear_occlusion() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, soft_at.get());
-  constexpr float kOpen[] = {1, 0, 0, 1};
-  glClearBufferfv(GL_COLOR, 0, kOpen);
-}
-
 Status PictureBuffer::resize(int wide, int high) {
   if (wide == width && high == height) return fine();
   width = height = 0;

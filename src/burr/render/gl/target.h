@@ -33,8 +33,6 @@ struct Target {
   Result<bool> resize(int wide, int high, int occlusion_stride);
   // Replaces [x0, x1) x [y0, y1) of the picture by the bone alone.
   void copy_bone(int x0, int y0, int x1, int y1) const;
-  // Sets the ambient occlusion to none.
-  void clear_occlusion() const;
 };
 
 // The pixels of a picture.

@@ -21,6 +21,7 @@
 #include "burr/render/gl/see_through.h"
 #include "burr/render/gl/shapes.h"
 #include "burr/render/gl/skin.h"
+#include "burr/render/gl/skin_programs.h"
 #include "burr/render/gl/target.h"
 #include "burr/render/renderer.h"
 
@@ -59,8 +60,8 @@ struct Renderer::Work {
   gl::VertexArray nothing;  // the screen triangle has no data, but OpenGL needs an array
   gl::Lighting lighting;
   gl::SeeThrough through;
-  gl::Program skin_mesh, clipped_skin, stained_skin, clipped_stained_skin, mesh, occlusion, soften,
-      shrink;
+  gl::SkinPrograms skins;
+  gl::Program mesh, occlusion, soften, shrink;
   int most = kMostTarget;                    // most samples along a side
   int idle_width = 1280, idle_height = 720;  // size for show() without a window
   Figures figures;
@@ -118,15 +119,17 @@ struct Renderer::Work {
     gl::Region shadow;             // where the tool's shadow is or was
     gl::Region ambient_occlusion;  // where the bone's hollows must be computed
     bool light_occlusion = true;
+    bool few_samples = false;  // of the hollows
+    bool grain = true;
     math::Aabb extent;  // of all bone
   };
   void paint(const Scene& scene, const gl::Frame& frame, const Parts& parts,
              const std::vector<gl::Piece>& pieces);
-  void paint_bone(const Scene& scene, const gl::Frame& frame, const gl::Rect& r);
+  void paint_bone(const Scene& scene, const gl::Frame& frame, const gl::Rect& r, bool grain);
   void paint_tool(const gl::Frame& frame, const gl::Rect& r, const std::vector<gl::Piece>& pieces);
   void draw_pieces(const gl::Frame& frame, const gl::Rect& r, const std::vector<gl::Piece>& pieces,
                    bool with_marks);
-  void paint_occlusion(const Scene& scene, const gl::Frame& frame, const gl::Rect& r);
+  void paint_occlusion(const Scene& scene, const gl::Frame& frame, const gl::Rect& r, int samples);
   struct Size {
     int width = 0, height = 0;
   };

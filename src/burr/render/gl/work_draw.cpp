@@ -103,10 +103,11 @@ Renderer::Work::Parts Renderer::Work::compare(const Scene& scene, const Frame& f
     }
     const bool now = all ? quality.ambient_occlusion : !quality.ambient_occlusion_later;
     const bool later = quality.refine && held->coarse.empty() && parts.bone.empty();
-    if (now || later) parts.ambient_occlusion = std::exchange(held->stale, {});
-    if (all && !now) {
-      target.clear_occlusion();
-      parts.light_occlusion = false;
+    if (now || later) {
+      parts.ambient_occlusion = std::exchange(held->stale, {});
+    } else if (all) {
+      parts.ambient_occlusion = held->stale;
+      parts.few_samples = true;
     }
   }
   return parts;
@@ -137,14 +138,16 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
     held.emplace();
     held->there = sky_outside;
     held->bone = held->extent = bounds(scene);
-    if (quality.coarse_px > quality.coarse_still_px) held->coarse = pieces_of(frame.all());
+    if (quality.coarse_px > quality.coarse_still_px || (quality.grain_still && !quality.grain))
+      held->coarse = pieces_of(frame.all());
   }
   const double pixels_at_1m = high / (2 * std::tan(0.5 * scene.camera.field_of_view));
   skin.allow((all ? quality.coarse_px : quality.coarse_still_px) / pixels_at_1m);
   gl::set_depths(frame, scene.camera, held->bone);
   frame.clip =
       clip_from_view(scene.camera, static_cast<double>(wide) / high, frame.near, frame.far);
-  const Parts parts = compare(scene, frame, pieces, all);
+  Parts parts = compare(scene, frame, pieces, all);
+  parts.grain = (all ? quality.grain : quality.grain_still) && !scene.look.plain;
   changed.clear();
   held->camera = scene.camera;
   held->look = scene.look;

@@ -24,7 +24,9 @@ namespace {
 
 constexpr int kMostSamples = 48;  // of the hollows, see shaders.h
 
-constexpr float kBone = 1.0F, kSteel = 0.67F, kMark = 0.33F;  // kinds, as in the shaders
+constexpr int kFewSamples = 3;  // where time is short
+
+constexpr float kSteel = 0.67F, kMark = 0.33F;  // kinds, as in the shaders
 
 }  // namespace
 
@@ -42,7 +44,7 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   const Rect not_bone = rect_around(pieces, frame);
   const Rect there = rect_of(parts.extent, frame).with(not_bone);  // everything that is not
                                                                    // background
-  for (const Rect& rect : parts.bone.rects()) paint_bone(scene, frame, rect);
+  for (const Rect& rect : parts.bone.rects()) paint_bone(scene, frame, rect, parts.grain);
   Region fresh = parts.bone;
   fresh.add(parts.tool);
   fresh.join();
@@ -50,8 +52,8 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   const bool seen_through = sees_through(scene.look);
   if (seen_through)
     for (const Rect& rect : fresh.rects()) {
-      const gl::Skin::Drawn drawn =
-          through.paint(scene, frame, rect, skin, [&] { draw_pieces(frame, rect, pieces, false); });
+      const gl::Skin::Drawn drawn = through.paint(scene, frame, rect, {skin, skins, parts.grain},
+                                                  [&] { draw_pieces(frame, rect, pieces, false); });
       figures.patches_drawn += drawn.patches;
       figures.triangles_drawn += drawn.triangles;
     }
@@ -59,8 +61,10 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glBindVertexArray(nothing.get());
+  const int samples = parts.few_samples ? std::min(kFewSamples, scene.look.occlusion_samples)
+                                        : scene.look.occlusion_samples;
   for (const Rect& rect : parts.ambient_occlusion.rects())
-    paint_occlusion(scene, frame, rect.in(there));
+    paint_occlusion(scene, frame, rect.in(there), samples);
   Region lit = fresh;
   lit.add(parts.ambient_occlusion);
   lit.add(parts.shadow);
@@ -89,7 +93,7 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   figures.redrawn = std::max(figures.redrawn, std::min(1.0, lit.area() / frame.all().area()));
 }
 
-void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Rect& r) {
+void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Rect& r, bool grain) {
   if (r.empty()) return;
   glBindFramebuffer(GL_FRAMEBUFFER, target.bone.get());
   glViewport(0, 0, frame.width, frame.height);
@@ -104,26 +108,9 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
 
-  Program& program = skin.stained() ? (scene.clip ? clipped_stained_skin : stained_skin)
-                                    : (scene.clip ? clipped_skin : skin_mesh);
-  program.use();
+  if (scene.clip) glDisable(GL_CULL_FACE);
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;
-  program.set("clip_from_model", Eigen::Matrix4f(clip_from_world.cast<float>()));
-  const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
-  program.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
-  program.set("tint_kind", Eigen::Vector4f(1, 1, 1, kBone));
-  program.set("tissue_colours", 0);
-  program.set("grains_per_m", 2000.0F);
-  if (scene.clip) {
-    glDisable(GL_CULL_FACE);
-    const Vec3& n = scene.clip->n;
-    Eigen::Vector4f plane;
-    plane << n.cast<float>(), static_cast<float>(-n.dot(scene.clip->p));
-    program.set("plane", plane);
-    program.set("plane_n", Eigen::Vector3f((turn * n).cast<float>()));
-  }
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, skin.colours());
+  skins.use({skin.stained(), grain, scene.clip.has_value()}, scene, frame, skin.colours());
   const gl::Skin::Hidden hidden = {
       [&] {
         depth.resize(static_cast<std::size_t>(r.x1 - r.x0) * static_cast<std::size_t>(r.y1 - r.y0));
@@ -133,11 +120,19 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
         tiles.look(depth.data(), {r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0});
       },
       [&](const Aabb& box) { return tiles.hide(box, clip_from_world, frame.width, frame.height); }};
-  const gl::Skin::Drawn drawn =
-      skin.draw(scene.camera.eye(), gl::planes_of(r, frame), scene.clip.has_value(),
-                reads_depth && skip_hidden ? &hidden : nullptr);
+  const Vec3 from = scene.camera.eye();
+  const gl::Skin::Planes planes = gl::planes_of(r, frame);
+  const gl::Skin::Drawn drawn = skin.draw(from, planes, scene.clip.has_value(),
+                                          reads_depth && skip_hidden ? &hidden : nullptr);
+  skins.use({false, grain, scene.clip.has_value()}, scene, frame, skin.colours());
+  if (scene.clip) {  // what fills a canal to its wall is in front of the wall
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(0, -60000);
+  }
+  const gl::Skin::Drawn soft = skin.draw_soft(from, planes, scene.clip.has_value());
+  glDisable(GL_POLYGON_OFFSET_FILL);
   figures.patches_drawn += drawn.patches;
-  figures.triangles_drawn += drawn.triangles;
+  figures.triangles_drawn += drawn.triangles + soft.triangles;
 }
 
 // Copies the bone and draws the tool and marks in front of it.
@@ -195,10 +190,11 @@ std::array<float, 2 * kMostSamples> spiral(int count) {
 
 }  // namespace
 
-void Renderer::Work::paint_occlusion(const Scene& scene, const Frame& frame, const Rect& r) {
+void Renderer::Work::paint_occlusion(const Scene& scene, const Frame& frame, const Rect& r,
+                                     int samples) {
   if (r.empty()) return;
   const int stride = target.stride;
-  const int count = std::clamp(scene.look.occlusion_samples, 1, kMostSamples);
+  const int count = std::clamp(samples, 1, kMostSamples);
   const Rect low = Rect{r.x0 / stride, r.y0 / stride, (r.x1 + stride - 1) / stride,
                         (r.y1 + stride - 1) / stride};
   glViewport(0, 0, target.occlusion_width, target.occlusion_height);

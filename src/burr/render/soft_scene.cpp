@@ -1,0 +1,146 @@
+#include "burr/render/soft_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "burr/render/soft_part.h"
+#include "burr/surface/label_surface.h"
+
+namespace burr::render {
+namespace {
+
+// largest errors of its levels of detail [voxel]
+constexpr std::array<double, 3> kErrors = {0.15, 0.5, 1.5};
+
+struct Word {
+  std::string_view word;
+  Material material;
+};
+
+// The first word that the name contains counts. Gloss, grain, pores, milk.
+constexpr std::array kSolids = {
+    Word{"enamel", {0.75F, 0.05F, 0, 1}},
+    Word{"caries", {0, 1, 0.4F, 0}},
+    Word{"dentin", {0.25F, 0.35F, 0, 0}},
+    Word{"teeth", {0.6F, 0.1F, 0, 0.6F}},
+    Word{"tooth", {0.6F, 0.1F, 0, 0.6F}},
+    Word{"diploe", {0.3F, 1, 1, 0}},
+    Word{"trabecular", {0.3F, 1, 1, 0}},
+    Word{"cancellous", {0.3F, 1, 1, 0}},
+    Word{"spongy", {0.3F, 1, 1, 0}},
+    Word{"mastoid bone", {0.5F, 0.5F, 0.2F, 0}},
+    Word{"meatus wall", {0.35F, 0.3F, 0.2F, 0}},
+    Word{"labyrinth", {0.25F, 0.1F, 0, 0.25F}},
+    Word{"malleus", {0.35F, 0.2F, 0, 0.2F}},
+    Word{"incus", {0.35F, 0.2F, 0, 0.2F}},
+    Word{"stapes", {0.35F, 0.2F, 0, 0.2F}},
+    Word{"cement", {0.1F, 0.3F, 0, 0}},
+};
+constexpr std::array kSofts = {
+    Word{"dura", {0.95F, 0.25F, 0, 0.2F}},  Word{"nerve", {0.7F, 0.1F, 0, 0.2F}},
+    Word{"chorda", {0.7F, 0.1F, 0, 0.2F}},  Word{"sinus", {0.9F, 0.15F, 0, 0.1F}},
+    Word{"vein", {0.9F, 0.15F, 0, 0.1F}},   Word{"artery", {0.85F, 0.1F, 0, 0}},
+    Word{"eardrum", {0.9F, 0.1F, 0, 0.6F}}, Word{"mucosa", {1, 0.3F, 0, 0.2F}},
+    Word{"pulp", {0.95F, 0.3F, 0, 0}},
+};
+constexpr Material kBone = {0, 0.6F, 0.5F, 0}, kSoft = {0.8F, 0.15F, 0, 0.1F};
+
+constexpr double kCover = 1e-3;  // farthest bone that counts as lying on a structure [m]
+
+// Whether bone lies, or lay before it was cut, on the surface here: cutting leaves labels as they
+// are.
+bool covered(const volume::Bone& bone, const surface::Vertex& vertex) {
+  const volume::Grid& grid = bone.grid();
+  const int steps = std::max(3, static_cast<int>(kCover / grid.voxel));
+  const math::Vec3 p = grid.grid_from_world(vertex.p.cast<double>()),
+                   n = grid.frame.q.conjugate() * vertex.n.cast<double>();
+  for (int step = 1; step <= steps; ++step) {
+    const math::Ijk at = (p + step * n).array().round().cast<int>();
+    if (!grid.contains(at)) return false;
+    if (bone.tissues()[bone.tissue(at.x(), at.y(), at.z())].kind == volume::TissueKind::solid)
+      return true;
+  }
+  return false;
+}
+
+// The part that bone covers, or the open part: of dura, the face towards the brain. It would hide
+// bone that is cut from that side, since nothing cuts dura.
+SoftStructure part_of(const volume::Bone& bone, const surface::Mesh& mesh, bool open) {
+  std::vector<bool> under_bone;
+  for (const surface::Vertex& vertex : mesh.vertices) under_bone.push_back(covered(bone, vertex));
+  surface::Mesh part;
+  std::vector<std::uint32_t> place(mesh.vertices.size(), 0);  // 1 and on
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const std::uint32_t* corner = &mesh.triangles[t];
+    const bool hidden = under_bone[corner[0]] || under_bone[corner[1]] || under_bone[corner[2]];
+    if (hidden == open) continue;
+    for (int c = 0; c < 3; ++c) {
+      std::uint32_t& at = place[corner[c]];
+      if (at == 0) {
+        part.vertices.push_back(mesh.vertices[corner[c]]);
+        at = static_cast<std::uint32_t>(part.vertices.size());
+      }
+      part.triangles.push_back(at - 1);
+    }
+  }
+  SoftStructure structure;
+  if (part.triangles.empty()) return structure;
+  JoinedMesh all;
+  all.add(SkinMesh(part));
+  for (SkinVertex& vertex : all.vertices) {
+    if (open) vertex.under |= kOpen;
+    structure.box.extend(vertex.p.cast<double>());
+  }
+  std::array<double, kErrors.size()> errors = kErrors;
+  for (double& e : errors) e *= bone.grid().voxel;
+  structure.mesh = std::make_shared<const CoarseMesh>(coarser(std::move(all), errors));
+  return structure;
+}
+
+}  // namespace
+
+std::vector<Material> materials_of(const volume::TissueTable& tissues) {
+  std::vector<Material> materials;
+  for (const volume::Tissue& tissue : tissues.tissues) {
+    std::string name = tissue.name;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto find = [&name](const auto& words, const Material& otherwise) {
+      const auto at = std::find_if(words.begin(), words.end(), [&](const Word& word) {
+        return name.find(word.word) != std::string::npos;
+      });
+      return at == words.end() ? otherwise : at->material;
+    };
+    materials.push_back(tissue.kind == volume::TissueKind::soft ? find(kSofts, kSoft)
+                                                                : find(kSolids, kBone));
+  }
+  return materials;
+}
+
+Status add_soft(Scene& scene, const volume::Bone& bone, Progress& progress) {
+  scene.materials = materials_of(bone.tissues());
+  scene.soft.clear();
+  NoProgress quiet;
+  for (const volume::TissueId tissue : surface::soft_tissues(bone)) {
+    if (progress.cancelled())
+      return error(Trouble::interrupted, "stopped before the surface was complete");
+    // marrow fills the pores of spongy bone: it is seen on their walls
+    if (bone.tissues()[tissue].name.find("marrow") != std::string::npos) continue;
+    const Result<surface::Mesh> mesh = surface::label_surface(bone, tissue, quiet);
+    if (!mesh) return mesh.error();
+    for (const bool open : {false, true}) {
+      SoftStructure part = part_of(bone, *mesh, open);
+      part.tissue = tissue;
+      if (part.mesh != nullptr) scene.soft.push_back(std::move(part));
+    }
+  }
+  return fine();
+}
+
+}  // namespace burr::render
