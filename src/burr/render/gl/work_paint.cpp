@@ -103,6 +103,7 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
+  draped.draw(scene.drape, frame, mesh);
 
   Program& program = skin.stained() ? (scene.clip ? clipped_stained_skin : stained_skin)
                                     : (scene.clip ? clipped_skin : skin_mesh);
