@@ -10,6 +10,7 @@
 #include "burr/render/bone_scene.h"
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
+#include "burr/workshop/opening.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
 #include "commands/outputs.h"
@@ -70,8 +71,10 @@ Status run(const Options& options) {
   render::Scene scene = workshop::scene_of_work(bone, kBurr, place->at, -place->into);
   const Status skinned = render::skin_bone(scene, bone, 2, progress());
   if (!skinned) return skinned;
+  ViewOptions shown = *view;
+  if (!at) shown.opening = workshop::opening_of_phantom(options.volume.source);
   const Status drawn =
-      draw_view(std::move(scene), bone, place->at, place->into, *view, options.size, options.out);
+      draw_view(std::move(scene), bone, place->at, place->into, shown, options.size, options.out);
   if (!drawn) return drawn;
   fmt::print("{}: {} x {}\n", options.out, options.size.width, options.size.height);
   return fine();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "burr/render/bone_scene.h"
+#include "burr/render/held_tool.h"
 #include "burr/render/picture.h"
 #include "burr/render/soft_scene.h"
 #include "burr/sim/replay.h"
@@ -17,7 +18,9 @@
 #include "burr/sound/synth.h"
 #include "burr/sound/wav.h"
 #include "burr/surface/worker.h"
+#include "burr/workshop/opening.h"
 #include "burr/workshop/recording.h"
+#include "burr/workshop/seen.h"
 #include "burr/workshop/sound_tracker.h"
 #include "burr/workshop/spared.h"
 #include "burr/workshop/spared_distance.h"
@@ -46,6 +49,30 @@ struct Options {
   std::string screenshot;
 };
 
+// Whether the picture is seen from where the session looked: the user asked for no other view.
+bool as_seen(const Options& options) { return options.view.view.empty(); }
+
+ViewOptions view_of(const Options& options, const record::Player& player) {
+  ViewOptions view = options.view;
+  const record::SessionInfo& info = player.info();
+  if (info.work_case) {
+    if (const auto work = record::case_of(*info.work_case))
+      view.opening = workshop::opening_of(*work);
+  } else {
+    view.opening = workshop::opening_of_phantom(info.volume.recipe.source);
+  }
+  return view;
+}
+
+// The tool of a tick. That of a mouse, which has no orientation, is drawn as the window draws it.
+void put_drawn_tool(render::Scene& scene, const tick::TickRow& row, const record::Player& player,
+                    bool contact, render::HeldTool& held, double seconds) {
+  workshop::put_tool(scene, row, contact);
+  const auto device = player.info().words.find("device");
+  if (device == player.info().words.end() || device->second != "mouse") return;
+  scene.burr.world_from_tool = held.at(scene, scene.burr.world_from_tool.p, false, seconds);
+}
+
 // Draws the bone and the burr at one moment.
 Status draw(const Options& options, record::Player& player) {
   auto bone = workshop::bone_of(player, options.volume, progress());
@@ -59,19 +86,26 @@ Status draw(const Options& options, record::Player& player) {
   const math::Vec3 shaft = tick->hand.world_from_tool.q * math::Vec3::UnitZ();
   render::Scene scene =
       workshop::scene_of_work(**bone, tick->tool.radius, tick->contact.proxy, shaft);
-  workshop::put_tool(scene, *tick, false);
   const Status skinned = render::skin_bone(scene, **bone, 2, progress());
   if (!skinned) return skinned;
+  const ViewOptions view = view_of(options, player);
+  const std::vector<record::View> views =
+      as_seen(options) ? player.views() : std::vector<record::View>();
+  if (const record::View* seen = workshop::view_at(views, tick->tick))
+    look_as_seen(scene, workshop::camera_of(*seen), view);
+  render::HeldTool held;
+  put_drawn_tool(scene, *tick, player, false, held, 0);
   if (options.effects) {
     render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
     workshop::Traces(player).until(t).show(wound);
     wound.stain_still(scene);
   }
-  return draw_view(std::move(scene), **bone, tick->contact.proxy, -shaft, options.view,
-                   options.size, options.picture);
+  return draw_view(std::move(scene), **bone, tick->contact.proxy, -shaft, view, options.size,
+                   options.picture);
 }
 
-// Draws the whole session as numbered pictures, from the viewpoint of its end.
+// Draws the whole session as numbered pictures: from where the session looked, or, in another view,
+// from the viewpoint of its end.
 Status film(const Options& options, record::Player& player) {
   auto bone = workshop::bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
@@ -82,14 +116,18 @@ Status film(const Options& options, record::Player& player) {
       workshop::scene_of_work(**bone, last->tool.radius, last->contact.proxy, shaft);
   scene.tissue_colours = render::colours_of((*bone)->tissues());
   if (const Status soft = render::add_soft(scene, **bone, progress()); !soft) return soft;
-  const Status possible = set_view(scene, last->contact.proxy, -shaft, options.view);
-  if (!possible) return possible;
   surface::Worker worker(**bone, 1);
   const auto show = [&scene](const surface::Skin& skin) {
     render::set_patch(scene, skin.patch, *skin.mesh);
   };
   const Status skinned = worker.first(progress(), show);
   if (!skinned) return skinned;
+  const ViewOptions view = view_of(options, player);
+  const Status possible = set_view(scene, last->contact.proxy, -shaft, view);
+  if (!possible) return possible;
+  const std::vector<record::View> views =
+      as_seen(options) ? player.views() : std::vector<record::View>();
+  render::HeldTool held;
   auto reel = render::Film::in(options.film, options.size.width, options.size.height);
   if (!reel) return reel.error();
   render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
@@ -108,7 +146,9 @@ Status film(const Options& options, record::Player& player) {
     }
     auto tick = player.tick_at(n / options.fps);
     if (!tick) return tick.error();
-    workshop::put_tool(scene, *tick, true);
+    if (const record::View* seen = workshop::view_at(views, tick->tick))
+      look_as_seen(scene, workshop::camera_of(*seen), view);
+    put_drawn_tool(scene, *tick, player, true, held, 1 / options.fps);
     Status written = reel->frame(scene);
     if (!written) return written;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "burr/render/microscope.h"
 #include "burr/render/picture.h"
 #include "burr/render/slice.h"
 #include "burr/render/stereo.h"
@@ -46,9 +47,10 @@ Vec3 towards_eye(Plane plane) { return render::right_of(plane).cross(render::up_
 void add_view_options(CLI::App& command, ViewOptions& options) {
   std::vector<std::string> views = {"work", "whole", "microscope", "endoscope"};
   for (const std::string& plane : names_of(kPlanes)) views.push_back(plane);
-  command.add_option("--view", options.view, "the view")
-      ->check(CLI::IsMember(views))
-      ->capture_default_str();
+  command
+      .add_option("--view", options.view,
+                  "the view (default: as the session was seen; where no view is recorded: work)")
+      ->check(CLI::IsMember(views));
   command
       .add_option("--clip", options.clip,
                   "cut the bone open at the work: axial, coronal or sagittal")
@@ -67,6 +69,15 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
 
 namespace {
 
+constexpr double kDark = 0.7;  // of the vignette, as in the window
+
+void under_microscope(render::Scene& scene, const ViewOptions& options) {
+  render::light_coaxially(scene.look);
+  // see-through bone and a section are looked at without what hides them
+  if (options.opening && scene.drape == nullptr && scene.look.opacity >= 1 && !scene.clip)
+    scene.drape = render::drape_over(scene, *options.opening);
+}
+
 void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOptions& options,
           double aspect) {
   if (!options.labels) scene.tissue_colours = render::as_bone(scene.tissue_colours);
@@ -84,26 +95,44 @@ void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOpt
   if (options.view == "whole")
     camera = render::whole_view(scene, camera.azimuth, camera.elevation, aspect);
   if (options.view == "microscope") {
-    // far away and narrow, like a microscope
-    constexpr double kFar = 0.25, kField = 22e-3;
-    camera.target = at;
-    camera.distance = kFar;
-    camera.field_of_view = 2 * std::atan(0.5 * kField / kFar);
+    const bool into_case = options.opening && !scene.clip;
+    const Vec3 outward = into_case ? options.opening->outward : camera.backward();
+    camera = render::microscope_view(at, outward, render::kFields[render::kFirstField]);
+    scene.vignette = kDark;
+    under_microscope(scene, options);
   }
   if (options.view == "endoscope") {
     constexpr double kBack = 6e-3;  // distance of its tip behind the burr's
     camera = render::endoscope_view(at - kBack * ahead.normalized(), ahead);
     scene.burr.visible = false;  // the view is from the tool itself
-  }
-  if (options.view == "microscope" || options.view == "endoscope") {
     scene.round = true;
     scene.scale_bar = false;
+    render::light_coaxially(scene.look);
   }
-  if (options.height_mm > 0)
+  if (options.height_mm > 0 && options.view == "microscope")
+    render::set_field(camera, 1e-3 * options.height_mm);
+  else if (options.height_mm > 0)
     camera.distance = 0.5e-3 * options.height_mm / std::tan(camera.field_of_view / 2);
 }
 
 }  // namespace
+
+void look_as_seen(render::Scene& scene, const render::Camera& camera, const ViewOptions& options) {
+  scene.camera = camera;
+  const bool microscope = render::is_microscope(camera);
+  const render::Look plain;
+  scene.vignette = microscope ? kDark : 0;
+  if (microscope) {
+    under_microscope(scene, options);
+  } else {
+    scene.drape = nullptr;
+    scene.look.key = plain.key;
+    scene.look.fill = plain.fill;
+    scene.look.ambient = plain.ambient;
+    scene.look.background_top = plain.background_top;
+    scene.look.background_bottom = plain.background_bottom;
+  }
+}
 
 bool shows_slice(const ViewOptions& options) { return named(kPlanes, options.view).has_value(); }
 

@@ -40,6 +40,7 @@ bool get(const json& object, const char* name, bool& to) {
 }  // namespace
 
 double magnification_of(double view_height) { return kScreen / std::max(view_height, 1e-9); }
+double view_height_of(double magnification) { return kScreen / std::max(magnification, 1e-9); }
 
 bool same_sight(const View& a, const View& b) {
   return a.eye == b.eye && a.right == b.right && a.up == b.up && a.back == b.back &&

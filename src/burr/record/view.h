@@ -35,6 +35,7 @@ struct View {
 // How much larger than life a picture is on a screen of 0.3 m height. view_height: of the picture,
 // at the depth of what the camera looks at [m].
 [[nodiscard]] double magnification_of(double view_height);
+[[nodiscard]] double view_height_of(double magnification);  // the other way [m]
 
 // Equal but for the tick.
 [[nodiscard]] bool same_sight(const View& a, const View& b);

@@ -82,6 +82,10 @@ math::Aabb bounds(const Scene& scene) {
     box.extend(structure.box.lo);
     box.extend(structure.box.hi);
   }
+  if (scene.drape != nullptr) {
+    box.extend(scene.drape->box.lo);
+    box.extend(scene.drape->box.hi);
+  }
   return box;
 }
 
@@ -99,7 +103,7 @@ void show_contact(Scene& scene, const Vec3& hand, const Vec3& proxy, const Vec3&
   scene.rods.clear();
   const double size = std::clamp(0.2 * scene.burr.radius, 0.1e-3, 0.5e-3);
 
-  scene.markers.push_back({hand, 1.5 * size, kHand, true});
+  scene.markers.push_back({hand, 0.8 * size, kHand, true});
   if ((proxy - hand).norm() > size)
     scene.rods.push_back({hand, proxy, 0.5 * size, kHand, false, true});
   if (force.norm() * length_per_newton < 4 * size) return;

@@ -20,6 +20,7 @@
 #include "burr/render/camera.h"
 #include "burr/render/changes.h"
 #include "burr/render/coarse_mesh.h"
+#include "burr/render/drape.h"
 #include "burr/render/image.h"
 #include "burr/render/look.h"
 #include "burr/render/quality.h"
@@ -80,13 +81,14 @@ struct Material {
   [[nodiscard]] bool operator==(const Material&) const = default;
 };
 
-// The tool in the hand: a fluted or grainy ball on a shaft, which extends along the tool's +z.
+// The tool in the hand: a fluted or grainy ball on a shaft, which extends along the tool's +z into a
+// tapered handpiece.
 struct Burr {
   bool visible = false;
   math::Pose world_from_tool;    // origin: centre of the head
   double radius = 2.5e-3;        // of the head [m]
   double shaft_radius = 1.2e-3;  // [m]
-  double shaft_length = 70e-3;   // [m]
+  double shaft_length = 70e-3;   // of the lines that show the mirrored image [m]
   double turn = 0;               // of the spindle [rad]
   bool diamond = false;          // grains in place of flutes
 };
@@ -146,7 +148,9 @@ struct Scene {
   Quality quality;                // of a window's picture
   std::optional<ClipPlane> clip;  // of the bone
   bool round = false;             // only a circle is visible, as through a microscope or endoscope
-  std::vector<Inset> insets;      // over it
+  double vignette = 0;            // darkness in the corners, as a microscope's picture has, 0..1
+  std::shared_ptr<const Drape> drape;  // around the work, drawn only; nullptr: none
+  std::vector<Inset> insets;           // over it
   bool scale_bar = false;         // bottom right; its length is true at the depth of the camera's
                                   // target
   std::vector<std::string> text;  // lines, top left; ASCII
@@ -170,7 +174,7 @@ void set_stains(Scene& scene, int index, std::shared_ptr<const std::vector<Stain
 // patches.
 [[nodiscard]] std::uint64_t versions_of(const Scene& scene, const SceneBlock& block);
 
-// The box around all patches and soft structures; empty if there are none.
+// The box around all patches, soft structures and the drape; empty if there are none.
 [[nodiscard]] math::Aabb bounds(const Scene& scene);
 
 // A camera with all of the bone in the picture, as fit() in camera.h.

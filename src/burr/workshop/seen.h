@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "burr/record/view.h"
 #include "burr/render/camera.h"
@@ -15,5 +16,11 @@ namespace burr::workshop {
 // Of two eyes: from the middle between them.
 [[nodiscard]] record::View view_of(const render::Camera& left, const render::Camera& right,
                                    std::uint64_t tick);
+
+// The camera of a view. Of a head that was tilted, as in a headset: with the horizon level.
+[[nodiscard]] render::Camera camera_of(const record::View& view);
+// The view that holds at a tick: of those in order of time the last one before it, or the first.
+// nullptr: there is none.
+[[nodiscard]] const record::View* view_at(std::span<const record::View> views, std::uint64_t tick);
 
 }  // namespace burr::workshop

@@ -23,8 +23,14 @@ bool is_seen(const render::Scene& scene, const Vec3& burr) {
 
 MouseHand::Aim MouseAim::at(const render::Scene& scene, const render::Ray& eye,
                             const std::optional<Push>& push, bool left_handed) {
-  const auto hit = render::pick(scene, eye);
+  auto hit = render::pick(scene, eye);
   double surface = 0;
+  // soft tissue and retractor are in the way of the hand, but nobody feels them
+  if (scene.drape != nullptr) {
+    const auto covered = render::hit(*scene.drape, eye);
+    if (covered && (!hit || *covered < hit->distance))
+      return over_drape(scene, eye, *covered, left_handed);
+  }
   if (hit) {
     normal_ = ((1 - kFollow) * normal_ + kFollow * hit->n).normalized();
     point_ = hit->p;
@@ -45,6 +51,20 @@ MouseHand::Aim MouseAim::at(const render::Scene& scene, const render::Ray& eye,
     return aim;
   }
   MouseHand::Aim aim = lean(hover(scene, eye, hit, surface), scene.camera, left_handed);
+  aim.hovers = true;
+  return aim;
+}
+
+// Above the drape, at `covered` along the ray; nothing can be pressed there.
+MouseHand::Aim MouseAim::over_drape(const render::Scene& scene, const render::Ray& eye,
+                                    double covered, bool left_handed) {
+  below_.reset();
+  in_work_ = false;
+  normal_ = ((1 - kFollow) * normal_ + kFollow * scene.camera.backward()).normalized();
+  const double reach = scene.burr.radius + air_;
+  const auto room = render::room_before(scene, eye, std::max(covered - reach, 0.0), reach);
+  const Vec3 tip = room ? Vec3(eye.origin + *room * eye.direction) : scene.burr.world_from_tool.p;
+  MouseHand::Aim aim = lean(tip, scene.camera, left_handed);
   aim.hovers = true;
   return aim;
 }

@@ -48,6 +48,8 @@ class MouseAim {
  private:
   [[nodiscard]] math::Vec3 hover(const render::Scene& scene, const render::Ray& eye,
                                  const std::optional<render::Hit>& hit, double surface);
+  [[nodiscard]] MouseHand::Aim over_drape(const render::Scene& scene, const render::Ray& eye,
+                                          double covered, bool left_handed);
   [[nodiscard]] MouseHand::Aim lean(const math::Vec3& tip, const render::Camera& camera,
                                     bool left_handed) const;
 

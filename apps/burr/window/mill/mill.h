@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/render/held_tool.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
@@ -45,6 +46,7 @@
 #include "window/mill/technique.h"
 #include "window/mill/tick_watch.h"
 #include "window/mill/toolbar.h"
+#include "window/mill/views.h"
 #include "window/mill/window_options.h"
 #include "window/mill/worn_headset.h"
 #include "window/shell/desk.h"
@@ -63,7 +65,7 @@ class Mill {
         worker_(worker),
         scene_(scene),
         options_(options),
-        first_view_(scene.camera),
+        views_(options, scene.camera),
         panels_(desk.settings.panels),
         headset_(desk),
         pointer_(desk, scene),
@@ -136,6 +138,10 @@ class Mill {
   void note_mirror();
   void show_task();
   void saved_view(int slot, bool keep);
+  void take_view(ViewKind kind);
+  void first_view();
+  void magnify(double by);
+  [[nodiscard]] double aspect() const;
   void go_back();
   void keep();
   void pick_point();
@@ -185,6 +191,7 @@ class Mill {
 
   // ---- mill_status.cpp
   void look_at_session();
+  void draw_tool();
   void keep_device_preferences();
   void keep_fault_of(const device::Device& hand, const tick::FaultReport& fault);
   void update_status();
@@ -203,7 +210,7 @@ class Mill {
   surface::Worker& worker_;
   render::Scene& scene_;
   WindowOptions options_;
-  render::Camera first_view_;
+  Views views_;
 
   // the page
   bool open_ = true, picture_ = false, panels_;
@@ -248,6 +255,8 @@ class Mill {
   Measuring measuring_;
   MirrorMode mirror_;
   Drill drill_;
+  render::HeldTool held_;  // how a tool without an orientation of its own is drawn
+  Clock::time_point held_at_{};
 
   // what the user reads
   tick::TickRow row_;

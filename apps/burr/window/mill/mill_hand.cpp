@@ -267,7 +267,7 @@ void Mill::wheel(const SDL_MouseWheelEvent& wheel) {
   } else if (plane_.on() != ctrl) {
     deepen(by);
   } else {
-    render::zoom(scene_.camera, std::pow(1.15, by * desk_.settings.zoom_pace));
+    magnify(by * desk_.settings.zoom_pace);
   }
 }
 
@@ -361,6 +361,28 @@ void Mill::show_labels(bool shown) {
   scene_.tissue_colours = shown ? colours_ : render::as_bone(colours_);
 }
 
+double Mill::aspect() const {
+  return static_cast<double>(desk_.renderer().width()) / std::max(1, desk_.renderer().height());
+}
+
+void Mill::take_view(ViewKind kind) {
+  constexpr Word kNames[] = {Word::view_microscope, Word::view_whole, Word::view_endoscope,
+                             Word::view_free};
+  const Vec3 work =
+      row_.contact.touching ? row_.contact.proxy : aim_.bone_below().value_or(scene_.camera.target);
+  views_.go(kind, scene_, work, aspect());
+  note(word(kNames[static_cast<int>(kind)]));
+}
+
+void Mill::first_view() { views_.first(scene_, aspect()); }
+
+// A step of the microscope's, or nearer without steps. by: steps of the wheel.
+void Mill::magnify(double by) {
+  if (!views_.magnify(by, scene_)) return render::zoom(scene_.camera, std::pow(1.15, by));
+  const double field = scene_.camera.view_height();
+  note(say(Word::view_field, render::kFields[render::kFirstField] / field, 1e3 * field));
+}
+
 // Saves the present view, or returns to a saved one.
 void Mill::saved_view(int slot, bool keep) {
   if (keep) {
@@ -371,6 +393,7 @@ void Mill::saved_view(int slot, bool keep) {
   const auto view = saved_views_->at(slot);
   if (!view) return note(say(Word::view_none, slot, slot + 4));
   scene_.camera = view->camera;
+  views_.placed(scene_);
   scene_.look.opacity = options_.allowed.see_through ? view->opacity : 1;
   show_labels(view->labels);
   slices_shown_ = view->slices;

@@ -16,6 +16,7 @@
 #include "window/mill/mill.h"
 #include "window/mill/steps_panel.h"
 #include "window/mill/task_panel.h"
+#include "window/mill/views_bar.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -58,9 +59,7 @@ std::string flag_words(std::uint32_t flags) {
 void Mill::look_at_session() {
   if (session_.view(row_)) {
     ticks_.see(row_, session_.settings().servo.rate_hz, Clock::now());
-    scene_.burr.world_from_tool = {row_.contact.proxy, row_.hand.world_from_tool.q};
-    // the picture shows that the burr turns, not how fast: 40 000 rpm are too fast to see
-    if (row_.spindle_rad_s > 0) scene_.burr.turn = std::remainder(scene_.burr.turn + 0.7, 6.2832);
+    draw_tool();
     render::show_contact(scene_, row_.hand.world_from_tool.p, row_.contact.proxy,
                          row_.contact.force);
     if (options_.loudspeaker != nullptr) options_.loudspeaker->update(row_);
@@ -82,6 +81,21 @@ void Mill::look_at_session() {
     status_.warn_released(say(Word::let_go, flag_texts(fault.flags)), Clock::now());
     keep_fault_of(hands_.suction->hand(), fault);
   }
+}
+
+// The burr is where the bone lets it be. A mouse has no orientation: the shaft is drawn as a hand
+// would hold it. Only the picture is concerned.
+void Mill::draw_tool() {
+  constexpr double kShownSpin = 9;  // 40 000 rpm are too fast to see [rad/s]
+  const Clock::time_point now = Clock::now();
+  const double seconds =
+      std::min(0.1, std::chrono::duration<double>(now - std::exchange(held_at_, now)).count());
+  const bool own = hands_.real != nullptr || headset_.wand();
+  const math::Pose hand = {row_.contact.proxy, row_.hand.world_from_tool.q};
+  scene_.burr.world_from_tool =
+      own ? hand : held_.at(scene_, hand.p, desk_.settings.left_handed, seconds);
+  if (row_.spindle_rad_s > 0)
+    scene_.burr.turn = std::remainder(scene_.burr.turn + kShownSpin * seconds, 6.2832);
 }
 
 void Mill::keep_fault_of(const device::Device& hand, const tick::FaultReport& fault) {
@@ -197,6 +211,11 @@ void Mill::panels() {
     if (row_.ledger.removed > 0 && !std::exchange(task_read_, true)) {
       steps_shown_ = steps_shown_ || (task_ && options_.allowed.steps == workshop::Offer::always);
       task_ = false;
+    }
+    if (!page_open()) {
+      const ViewsBar bar = draw_views_bar(ui, views_.kind(), scene_.camera.view_height());
+      if (bar.view) take_view(*bar.view);
+      if (bar.magnify != 0) magnify(bar.magnify);
     }
     light_.draw(ui, scene_.camera);
     if (task_ && options_.work_case)

@@ -71,6 +71,7 @@ void Mill::begin() {
   if (steps_offered() && options_.mode != record::Mode::free)
     watch_.emplace(session_.bone(), *options_.lesson);
   pointer_.begin();
+  first_view();
   desk_.cap.open();
   lift();
   hands_taken_ = Clock::now();
@@ -82,6 +83,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   take_events();
   take_hands();
   look_at_session();
+  views_.look(scene_);
   if (!desk_.settings.effects)
     live.look_plain();
   else if (ticks_.begun())
@@ -123,6 +125,7 @@ void Mill::end(workshop::LiveSurface& live) {
   session_.stop();
   end_diary();
   light_.off(scene_);
+  views_.end(scene_);
   watch_.reset();
   scene_.insets.clear();
   scene_.tissue_colours = colours_;

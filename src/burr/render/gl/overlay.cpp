@@ -63,6 +63,21 @@ std::vector<float> around(int width, int height) {
   return xy;
 }
 
+// A ring between two radii, as triangles.
+std::vector<float> ring(float x, float y, float inner, float outer) {
+  constexpr int kSteps = 60;
+  std::vector<float> xy;
+  for (int n = 0; n < kSteps; ++n) {
+    constexpr float kStep = 2 * std::numbers::pi_v<float> / kSteps;
+    const float a = kStep * static_cast<float>(n), b = a + kStep;
+    const float ax = std::cos(a), ay = std::sin(a), bx = std::cos(b), by = std::sin(b);
+    xy.insert(xy.end(), {x + inner * ax, y + inner * ay, x + outer * ax, y + outer * ay,
+                         x + outer * bx, y + outer * by, x + inner * ax, y + inner * ay,
+                         x + outer * bx, y + outer * by, x + inner * bx, y + inner * by});
+  }
+  return xy;
+}
+
 }  // namespace
 
 double bar_length(double picture_width) {
@@ -85,7 +100,9 @@ Status Overlay::make(bool es) {
 
 void Overlay::draw(const Scene& scene, int width, int height, int left, int top, int wide,
                    int high) {
-  if (scene.text.empty() && !scene.scale_bar && !scene.round && scene.insets.empty()) return;
+  if (scene.text.empty() && !scene.scale_bar && !scene.round && scene.insets.empty() &&
+      scene.vignette <= 0)
+    return;
   const float size = std::max(1.0F, std::round(static_cast<float>(height) / 480.0F));
   std::vector<float> xy;
   float y = 8 * size;
@@ -119,12 +136,28 @@ void Overlay::draw(const Scene& scene, int width, int height, int left, int top,
       1.0F + 2.0F * static_cast<float>(top) / static_cast<float>(high));
   flat_.use();
   flat_.set("clip_from_pixel", clip_from_pixel);
+  if (scene.vignette > 0) vignette(scene, width, height);
   if (scene.round) quads(around(width, height), {0, 0, 0, 1});
   insets(scene, clip_from_pixel, size);
   flat_.use();
   quads(moved(xy, 0.75F * size), {0, 0, 0, 0.55F});
   quads(xy, {1, 1, 1, 0.92F});
   glDisable(GL_BLEND);
+}
+
+// Steps too small to be seen; they begin where the field of a microscope ends.
+void Overlay::vignette(const Scene& scene, int width, int height) {
+  constexpr int kRings = 56;
+  const float x = 0.5F * static_cast<float>(width), y = 0.5F * static_cast<float>(height);
+  const float from = 0.9F * std::min(x, y), to = std::hypot(x, y);
+  for (int n = 0; n < kRings; ++n) {
+    const auto at = [&](int k) {
+      return from + (to - from) * static_cast<float>(k) / static_cast<float>(kRings);
+    };
+    const float part = (static_cast<float>(n) + 0.5F) / kRings;
+    const float dark = static_cast<float>(scene.vignette) * part * part * (3 - 2 * part);
+    quads(ring(x, y, at(n), at(n + 1)), {0, 0, 0, dark});
+  }
 }
 
 void Overlay::insets(const Scene& scene, const Eigen::Vector4f& clip_from_pixel, float size) {

@@ -19,6 +19,7 @@ class Overlay {
  private:
   void load(const std::vector<float>& xy);
   void quads(const std::vector<float>& xy, const Eigen::Vector4f& colour);
+  void vignette(const Scene& scene, int width, int height);
   void insets(const Scene& scene, const Eigen::Vector4f& clip_from_pixel, float size);
 
   // an inset's picture on the GPU

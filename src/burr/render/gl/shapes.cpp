@@ -14,14 +14,44 @@ using math::Vec3;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kFlutes = 8;
+constexpr int kFlutes = 10;
 constexpr Colour kSteel = {0.58F, 0.60F, 0.63F}, kGrains = {0.42F, 0.38F, 0.30F};
+constexpr Colour kCollet = {0.34F, 0.35F, 0.37F}, kSatin = {0.66F, 0.67F, 0.68F},
+                 kGrip = {0.20F, 0.22F, 0.25F};
+
+// A straight handpiece as drills for the ear and the skull have: the burr's shaft sticks out by 26
+// mm, the nose widens to the grip of 16 mm. Profiles from the end of the handpiece: z, r [m].
+constexpr double kOut = 26e-3;  // from the burr's centre
+using Profile = std::vector<std::pair<double, double>>;
+Profile collet_profile() {
+  return {{-1.5e-3, 0}, {-1.5e-3, 1.9e-3}, {0, 2.4e-3}, {4e-3, 2.8e-3}, {5e-3, 2.8e-3}};
+}
+Profile nose_profile() {
+  return {{5e-3, 2.8e-3},  {5e-3, 3.3e-3}, {16e-3, 4e-3}, {28e-3, 5.6e-3},
+          {38e-3, 7.3e-3}, {43e-3, 8e-3},  {46e-3, 8e-3}};
+}
+Profile grip_profile() {
+  constexpr double kGroove = 5e-3;
+  Profile z_r = {{46e-3, 8e-3}};
+  for (int n = 0; n < 9; ++n) {
+    const double z = 48e-3 + n * kGroove;
+    z_r.insert(z_r.end(),
+               {{z, 7.8e-3}, {z + 0.4e-3, 7.3e-3}, {z + 1.2e-3, 7.3e-3}, {z + 1.6e-3, 7.8e-3}});
+  }
+  z_r.insert(z_r.end(), {{93e-3, 7.8e-3}, {95e-3, 8.2e-3}});
+  return z_r;
+}
+Profile tail_profile() {
+  return {{95e-3, 8.2e-3},  {112e-3, 8.4e-3}, {118e-3, 7e-3},   {119e-3, 4.5e-3},
+          {135e-3, 4.5e-3}, {136e-3, 3.2e-3}, {150e-3, 3.2e-3}, {150e-3, 0}};
+}
 
 // A surface over (u, v) in [0, 1]^2: u goes once around +z counter-clockwise, v from -z to +z.
-// Normals by differences, so that flutes reflect correctly.
+// Normals by differences, so that flutes reflect correctly. darkens: grooves, by that much per depth.
 void send_round(Shape& shape, int around, int along,
-                const std::function<Vec3(double u, double v)>& point) {
+                const std::function<Vec3(double u, double v)>& point, double darkens = 0) {
   std::vector<Eigen::Vector3f> points, normals;
+  std::vector<float> shades;
   std::vector<std::uint16_t> triangles;
   constexpr double kStep = 1e-4;
   for (int j = 0; j <= along; ++j)
@@ -32,13 +62,14 @@ void send_round(Shape& shape, int around, int along,
       const Vec3 dv = point(u, w + kStep) - point(u, w - kStep);
       points.push_back(point(u, v).cast<float>());
       normals.push_back(du.cross(dv).normalized().cast<float>());
+      shades.push_back(static_cast<float>(std::max(0.2, 1 - darkens * (1 - point(u, v).norm()))));
     }
   const auto index = [&](int i, int j) { return static_cast<std::uint16_t>(j * (around + 1) + i); };
   for (int j = 0; j < along; ++j)
     for (int i = 0; i < around; ++i)
       for (const auto& [a, b] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}})
         triangles.push_back(index(i + a, j + b));
-  shape.send(points, normals, triangles);
+  shape.send(points, normals, triangles, shades);
 }
 
 Vec3 on_circle(double u, double r, double z) {
@@ -46,7 +77,7 @@ Vec3 on_circle(double u, double r, double z) {
 }
 
 // A turned shape: radius r at each z of the profile.
-void send_turned(Shape& shape, const std::vector<std::pair<double, double>>& z_r) {
+void send_turned(Shape& shape, const Profile& z_r) {
   std::vector<Eigen::Vector3f> points, normals;
   std::vector<std::uint16_t> triangles;
   constexpr int kAround = 32;
@@ -80,13 +111,15 @@ Eigen::Matrix4d placed(const math::Pose& pose, double scale_xy, double scale_z) 
 
 void Shape::send(const std::vector<Eigen::Vector3f>& points,
                  const std::vector<Eigen::Vector3f>& normals,
-                 const std::vector<std::uint16_t>& triangles) {
+                 const std::vector<std::uint16_t>& triangles, const std::vector<float>& shades) {
   std::vector<float> packed;
   packed.reserve(points.size() * 9);
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float shade = shades.empty() ? 1.0F : shades[i];
     for (const float value : {points[i].x(), points[i].y(), points[i].z(), normals[i].x(),
-                              normals[i].y(), normals[i].z(), 1.0F, 1.0F, 1.0F})
+                              normals[i].y(), normals[i].z(), shade, shade, shade})
       packed.push_back(value);
+  }
   count_ = static_cast<GLsizei>(triangles.size());
   glBindVertexArray(array_.make());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.make());
@@ -118,33 +151,43 @@ void Shapes::make() {
 
   // Flutes wind a little around the head. They are deepest at its equator and end towards the
   // poles; their edges lie on the ball itself.
-  send_round(head_, 96, 40, [&](double u, double v) {
-    const double lat = (v - 0.5) * kPi, wave = u * kFlutes + 0.6 * (v - 0.5);
-    const double saw = wave - std::floor(wave);
-    const double depth = 0.16 * std::cos(lat) * std::cos(lat) * std::pow(1 - saw, 1.5);
-    return Vec3(sphere(u, v) * (1 - depth));
-  });
+  send_round(
+      head_, 160, 40,
+      [&](double u, double v) {
+        const double lat = (v - 0.5) * kPi, wave = u * kFlutes + 0.6 * (v - 0.5);
+        const double saw = wave - std::floor(wave);
+        const double depth = 0.24 * std::cos(lat) * std::pow(1 - saw, 1.5);
+        return Vec3(sphere(u, v) * (1 - depth));
+      },
+      3.2);
   // Grains of a diamond burr: their tips lie on the ball itself, the gaps a few hundredths of its
   // radius below.
-  send_round(grains_, 96, 48, [&](double u, double v) {
-    const double waves = std::sin(2 * kPi * 31 * u + 7 * std::sin(40 * v)) *
-                         std::sin(2 * kPi * 24 * v + 5 * std::sin(2 * kPi * 9 * u));
-    return Vec3(sphere(u, v) * (1 - 0.02 * (1 - waves)));
-  });
+  send_round(
+      grains_, 96, 48,
+      [&](double u, double v) {
+        const double waves = std::sin(2 * kPi * 31 * u + 7 * std::sin(40 * v)) *
+                             std::sin(2 * kPi * 24 * v + 5 * std::sin(2 * kPi * 9 * u));
+        return Vec3(sphere(u, v) * (1 - 0.02 * (1 - waves)));
+      },
+      9);
   send_turned(rod_, {{0, 0}, {0, 1}, {1, 1}, {1, 0}});
   send_turned(tip_, {{0, 0}, {0, 1}, {1, 0}});
+  send_turned(collet_, collet_profile());
+  send_turned(nose_, nose_profile());
+  send_turned(grip_, grip_profile());
+  send_turned(tail_, tail_profile());
 }
 
 void Shapes::make_shaft(const Burr& burr) {
-  const double wanted[3] = {burr.radius, burr.shaft_radius, burr.shaft_length};
-  if (std::equal(wanted, wanted + 3, shaft_of_)) return;
-  std::copy(wanted, wanted + 3, shaft_of_);
+  const double wanted[2] = {burr.radius, burr.shaft_radius};
+  if (std::equal(wanted, wanted + 2, shaft_of_)) return;
+  std::copy(wanted, wanted + 2, shaft_of_);
 
   // a neck thinner than the head, so that the head can cut sideways; it widens to the shaft
   const double neck = std::min(burr.shaft_radius, 0.55 * burr.radius);
   const double z0 = 0.8 * burr.radius, z1 = z0 + 3 * burr.radius;
   const double z2 = z1 + 4 * (burr.shaft_radius - neck) + 1e-6;
-  const double end = std::max(burr.shaft_length, z2 + burr.radius);
+  const double end = std::max(kOut, z2 + burr.radius);
   send_turned(
       shaft_,
       {{z0, neck}, {z1, neck}, {z2, burr.shaft_radius}, {end, burr.shaft_radius}, {end, 0}});
@@ -167,19 +210,7 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   pieces_.clear();
   const math::Aabb ball = {{-1, -1, -1}, {1, 1, 1}};
 
-  const Burr& burr = scene.burr;
-  if (burr.visible && burr.world_from_tool.finite()) {
-    make_shaft(burr);
-    math::Pose turned = burr.world_from_tool;
-    turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));
-    add(burr.diamond ? grains_ : head_, placed(turned, burr.radius, burr.radius),
-        burr.diamond ? kGrains : kSteel, !burr.diamond, false, {ball});
-    const double r = burr.shaft_radius, end = std::max(burr.shaft_length, 30 * burr.radius);
-    std::vector<math::Aabb> slices;
-    for (int slice = 0; slice < 4; ++slice)
-      slices.push_back({{-r, -r, slice * end / 4}, {r, r, (slice + 1) * end / 4}});
-    add(shaft_, placed(burr.world_from_tool, 1, 1), kSteel, true, false, slices);
-  }
+  if (scene.burr.visible && scene.burr.world_from_tool.finite()) add_tool(scene.burr);
   for (const Marker& marker : scene.markers) {
     if (!marker.p.allFinite()) continue;
     add(ball_, placed({marker.p, math::Quat::Identity()}, marker.radius, marker.radius),
@@ -188,6 +219,30 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   for (const Rod& rod : scene.rods) add_rod(rod);
   if (scene.mirrored) add_mirrored(*scene.mirrored, scene.burr);
   return pieces_;
+}
+
+void Shapes::add_tool(const Burr& burr) {
+  make_shaft(burr);
+  math::Pose turned = burr.world_from_tool;
+  turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));
+  add(burr.diamond ? grains_ : head_, placed(turned, burr.radius, burr.radius),
+      burr.diamond ? kGrains : kSteel, !burr.diamond, false, {{{-1, -1, -1}, {1, 1, 1}}});
+  // boxes along the axis from..to, because one around a slanted tool would be mostly empty
+  const auto slices = [](double r, double from, double to, int count) {
+    std::vector<math::Aabb> boxes;
+    const double step = (to - from) / count;
+    for (int n = 0; n < count; ++n)
+      boxes.push_back({{-r, -r, from + n * step}, {r, r, from + (n + 1) * step}});
+    return boxes;
+  };
+  const math::Pose& tool = burr.world_from_tool;
+  add(shaft_, placed(tool, 1, 1), kSteel, true, false,
+      slices(burr.shaft_radius, 0, std::max(kOut, 12 * burr.radius), 3));
+  const math::Pose held = {tool * Vec3(0, 0, kOut), tool.q};
+  add(collet_, placed(held, 1, 1), kCollet, true, false, slices(2.8e-3, -1.5e-3, 5e-3, 1));
+  add(nose_, placed(held, 1, 1), kSatin, true, false, slices(8e-3, 5e-3, 46e-3, 3));
+  add(grip_, placed(held, 1, 1), kGrip, true, false, slices(8.2e-3, 46e-3, 95e-3, 3));
+  add(tail_, placed(held, 1, 1), kSatin, true, false, slices(8.4e-3, 95e-3, 150e-3, 3));
 }
 
 void Shapes::add_rod(const Rod& rod) {

@@ -1,5 +1,5 @@
-// render/gl/shapes.h - tool and marks as triangles: fluted and grainy ball, turned shaft, ball,
-// rod, arrow head. For use of this room only.
+// render/gl/shapes.h - tool and marks as triangles: fluted and grainy ball, turned shaft,
+// handpiece, ball, rod, arrow head. For use of this room only.
 //
 // Thread: main, with the context current. Units: m; frame: world.
 #pragma once
@@ -12,12 +12,13 @@
 
 namespace burr::render::gl {
 
-// One mesh on the GPU, white; it gets its colour when it is drawn.
+// One mesh on the GPU, in shades of grey; it gets its colour when it is drawn.
 class Shape {
  public:
-  // points, normals: (n); triangles: (m x 3), counter-clockwise from outside
+  // points, normals: (n); triangles: (m x 3), counter-clockwise from outside; shades: of the colour
+  // at each point, 0..1; empty: 1 everywhere
   void send(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
-            const std::vector<std::uint16_t>& triangles);
+            const std::vector<std::uint16_t>& triangles, const std::vector<float>& shades = {});
   void draw() const;
 
  private:
@@ -49,12 +50,14 @@ class Shapes {
   void add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
            bool steel, bool on_top, const std::vector<math::Aabb>& boxes_shape);
 
+  void add_tool(const Burr& burr);
   void add_rod(const Rod& rod);
   void add_mirrored(const Mirrored& mirrored, const Burr& burr);
 
   Shape ball_, head_, grains_, rod_, tip_, shaft_;
+  Shape collet_, nose_, grip_, tail_;  // of the handpiece
   bool made_ = false;
-  double shaft_of_[3] = {0, 0, 0};  // radius, shaft_radius, shaft_length of the present shaft
+  double shaft_of_[2] = {0, 0};  // radius and shaft_radius of the present shaft
   std::vector<Piece> pieces_;
 };
 

@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "burr/render/depth_tiles.h"
 #include "burr/render/gl/context.h"
+#include "burr/render/gl/draped.h"
 #include "burr/render/gl/frame.h"
 #include "burr/render/gl/join.h"
 #include "burr/render/gl/lighting.h"
@@ -52,6 +54,7 @@ struct Renderer::Work {
   std::unique_ptr<gl::Context> context;
   gl::Skin skin;
   gl::Shapes shapes;
+  gl::Draped draped;
   gl::Overlay overlay;
   gl::Target target;
   // the picture; the lit samples at pixel size, where there are more pixels than samples
@@ -76,6 +79,7 @@ struct Renderer::Work {
     Camera camera;
     Look look;
     std::optional<ClipPlane> clip;
+    std::shared_ptr<const Drape> drape;
     math::Aabb bone;    // extent when it was drawn whole
     math::Aabb extent;  // with what was added since
     std::vector<gl::Piece> pieces;

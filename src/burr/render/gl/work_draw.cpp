@@ -131,10 +131,12 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
 
   // draw everything if the eye moved; otherwise only where bone or tool changed
   const bool all = *fresh || !held || !same(held->camera, scene.camera) ||
-                   !same(held->look, scene.look) || !same(held->clip, scene.clip);
+                   !same(held->look, scene.look) || !same(held->clip, scene.clip) ||
+                   held->drape != scene.drape;
   if (all) {
     const Rect sky_outside =
-        held && !*fresh && same(held->look, scene.look) ? held->there : frame.all();
+        held && !*fresh && same(held->look, scene.look) && held->drape == scene.drape ? held->there
+                                                                                      : frame.all();
     held.emplace();
     held->there = sky_outside;
     held->bone = held->extent = bounds(scene);
@@ -152,6 +154,7 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   held->camera = scene.camera;
   held->look = scene.look;
   held->clip = scene.clip;
+  held->drape = scene.drape;
   held->pieces = pieces;
   if (!parts.bone.empty() || !parts.tool.empty() || !parts.ambient_occlusion.empty())
     paint(scene, frame, parts, pieces);

@@ -107,6 +107,7 @@ void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Re
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glEnable(GL_CULL_FACE);
+  draped.draw(scene.drape, frame, mesh);
 
   if (scene.clip) glDisable(GL_CULL_FACE);
   const Eigen::Matrix4d clip_from_world = frame.clip * frame.view;

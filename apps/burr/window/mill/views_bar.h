@@ -1,0 +1,21 @@
+// apps/burr/window/mill/views_bar.h - the buttons of the four views, and of the microscope's
+// magnification.
+//
+// Thread: main, between Ui::begin() and draw().
+#pragma once
+
+#include <optional>
+
+#include "window/mill/views.h"
+#include "window/shell/ui.h"
+
+namespace burr::app {
+
+struct ViewsBar {
+  std::optional<ViewKind> view;  // was pressed
+  int magnify = 0;               // -1, 1: was pressed
+};
+// field: height of the microscope's picture [m]
+[[nodiscard]] ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field);
+
+}  // namespace burr::app
