@@ -63,12 +63,12 @@ void main() {
   m.xy += vec2(m.x >= 0.0 ? -t : t, m.y >= 0.0 ? -t : t);
   n = view_from_model_n * normalize(m);
   vec3 bone = texelFetch(tissue_colours, ivec2(int(at_rest.x & 255u), 0), 0).rgb;
-  vec3 under = texelFetch(tissue_colours, ivec2(int(at_rest.y & 255u), 0), 0).rgb;
+  vec4 under = texelFetch(tissue_colours, ivec2(int(at_rest.y & 255u), 0), 0);  // a: 0 unseen
 #ifdef WALLS
-  colour = under;
-  wall = float(at_rest.y >> 16u & 255u) / 255.0;
+  colour = under.rgb;
+  wall = under.a * float(at_rest.y >> 16u & 255u) / 255.0;
 #else
-  colour = mix(bone, under, float(at_rest.y >> 8u & 255u) / 255.0);
+  colour = mix(bone, under.rgb, under.a * float(at_rest.y >> 8u & 255u) / 255.0);
 #endif
 #ifdef STAINED
   // fresh bone is paler and shows its grain: every grain gets its own pseudo-random number

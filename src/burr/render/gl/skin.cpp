@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "burr/render/unseen.h"
+
 namespace burr::render::gl {
 
 using math::Vec3;
@@ -177,7 +179,9 @@ void Skin::send_colours() {
   std::array<std::array<std::uint8_t, 4>, kRow> row{};
   for (std::size_t t = 0; t < kRow; ++t) {
     const Colour colour = t < colours_.size() ? colours_[t] : Colour{1, 1, 1};
-    row[t] = {unorm(colour[0]), unorm(colour[1]), unorm(colour[2]), 255};
+    const bool seen = !is_unseen(colour);
+    row[t] = {unorm(colour[0]), unorm(colour[1]), unorm(colour[2]),
+              static_cast<std::uint8_t>(seen ? 255 : 0)};
   }
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, colour_row_.make());
