@@ -290,8 +290,7 @@ TEST_F(ImportDoubts, OfAScanThatIsRightThereAreNone) {
 
 TEST_F(ImportDoubts, OfSeveralPartsTheButtonsAreTheOptions) {
   const fs::path file = parts(true);
-  const std::string pick = word(Word::import_pick),
-                    drop = say(Word::import_drop_islands, importing::kIslandMm3),
+  const std::string pick = word(Word::import_pick), drop = say(Word::import_crumbs, 1.0),
                     largest = word(Word::import_keep_largest),
                     keep_all = word(Word::import_keep_all);
   int before = -1, decided = -1;
@@ -320,7 +319,9 @@ TEST_F(ImportDoubts, OfSeveralPartsTheButtonsAreTheOptions) {
                          }},
                         {"the choice", looks(5), [] { press(SDLK_RETURN); }}});
   EXPECT_TRUE(recipe.keep.all());
-  EXPECT_EQ(recipe.drop_islands_mm3, importing::kIslandMm3);
+  // 1 % of the ball: more than the speck has, less than the cube
+  EXPECT_GT(recipe.drop_islands_mm3, 0.064);
+  EXPECT_LT(recipe.drop_islands_mm3, 8);
 
   recipe = after(file, {{"a count", looks(30),
                          [&] {
@@ -484,7 +485,8 @@ TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
          return desk_->page == Page::import;
        },
        nullptr},
-      {"a picture", looks(3), [&] { click_on(box); }},
+      {"the list of all", looks(5), [] { press(SDLK_RETURN); }},
+      {"a picture", looks(5), [&] { click_on(box); }},
       {"the line",  // with the keys, wherever the lines lie
        [row, looked = 0]() mutable {
          if (++looked > 5 && looked % 4 == 0 && looked / 4 - 1 <= row) press(SDLK_DOWN);
@@ -506,6 +508,37 @@ TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
      then_mills());
   const record::VolumeInfo info = begun();
   EXPECT_EQ(info.recipe.series, "#" + std::to_string(row + 1));
+}
+
+// The list of all series comes first, with a picture of each; the keys and the mouse choose.
+TEST_F(ImportWindow, OfSeveralSeriesOneIsChosenByItsPicture) {
+  BURR_NEEDS_DATA("skull_phantom");
+  const fs::path folder = test::data_dir() / "skull_phantom";
+  const auto lit = [](const render::Image& image) {
+    int count = 0;
+    for (int y = 110; y < 640; ++y)
+      for (int x = 45; x < 120; ++x)
+        count += image.rgb[3 * static_cast<std::size_t>(y * image.width + x)] > 60 ? 1 : 0;
+    return count;
+  };
+  int first = 0;
+  by({{"the start page", on(Page::start), [&] { drop(folder); }},
+      {"the list", on(Page::import), nullptr},
+      {"a picture", looks(3),
+       [&] {
+         first = lit(desk_->renderer().shown());
+         for (int n = 0; n < 6; ++n) press(SDLK_UP);
+       }},
+      {"more pictures", [&] { return lit(desk_->renderer().shown()) > 1.3 * first; },
+       [] {
+         for (int n = 0; n < 4; ++n) press(SDLK_DOWN);
+       }},
+      {"the one of thick slices", looks(3), [] { press(SDLK_RETURN); }},
+      {"read", looks(2), nullptr},
+      {"the page", on(Page::import), nullptr},
+      {"its own picture", looks(5), [] { press(SDLK_RETURN); }}},
+     then_mills());
+  EXPECT_EQ(begun().recipe.series, "#5");
 }
 
 // W: the scan's own values in the slices; the button that turns pulls their window.
@@ -536,7 +569,11 @@ TEST_F(ImportWindow, ShowsWhatWasMeasuredInTheSlices) {
        {"the scan", looks(60), keep(bone, [] { press(SDLK_w); })},
        {"the scan's soft tissue", looks(60), keep(soft, [] { button(SDL_BUTTON_RIGHT, true); })},
        {"the hold", looks(3), [&] { pull(60); }},
-       {"the pull", looks(3), [] { button(SDL_BUTTON_RIGHT, false); }},
+       {"the pull", looks(3),
+        [] {
+          button(SDL_BUTTON_RIGHT, false);
+          move_to(1150, 100);  // where it was: the name of what is there stands beside the pointer
+        }},
        {"the wider window", looks(60), keep(pulled, [] { press(SDLK_w); })},
        {"the model again", looks(60), keep(again, [] { press(SDLK_q); })},
        {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});

@@ -125,7 +125,7 @@ TEST_F(ViewsWindow, ACaseBeginsAtItsEntryUnderTheMicroscope) {
        {"wider", [&] { return drawn(42e-3); }, [] { press(SDLK_t); }},
        {"see-through: nothing covers", [&] { return scene.look.opacity < 1 && !scene.drape; },
         [] { press(SDLK_t, KMOD_SHIFT); }},
-       {"back", [&] { return scene.drape != nullptr; }, [] { press(SDLK_F10); }},
+       {"back", [&] { return scene.drape != nullptr; }, [] { press(SDLK_F11); }},
        {"whole", [&] { return field() > 60e-3 && scene.drape == nullptr; },
         [&] {
           EXPECT_EQ(scene.vignette, 0);
@@ -133,11 +133,11 @@ TEST_F(ViewsWindow, ACaseBeginsAtItsEntryUnderTheMicroscope) {
           press(SDLK_F9);
         }},
        {"microscope as it was left", [&] { return drawn(42e-3) && scene.drape != nullptr; },
-        [] { press(SDLK_F11); }},
+        [] { press(SDLK_F12); }},
        {"endoscope", [&] { return scene.round && scene.camera.field_of_view > 1; },
         [&] {
           EXPECT_TRUE(scene.drape == nullptr);
-          press(SDLK_F12);
+          press(SDLK_F11, KMOD_SHIFT);
         }},
        {"free", [&] { return !scene.round && std::abs(scene.camera.field_of_view - 0.5) < 1e-9; },
         [] { press(SDLK_f); }},

@@ -8,6 +8,11 @@
 #include "window/shell/words.h"
 
 namespace burr::app {
+namespace {
+
+constexpr double kCrumb = 0.01;  // of the largest part: smaller ones are crumbs
+
+}  // namespace
 
 std::vector<ImportPage::Doubt> ImportPage::doubts() {
   std::vector<Doubt> all;
@@ -17,6 +22,16 @@ std::vector<ImportPage::Doubt> ImportPage::doubts() {
     all.push_back({say(Word::import_level_estimate, number_text(*now), unit_of_values()),
                    true,
                    {{word(Word::import_level_right), [this, value = *now] { set_level(value); }}}});
+  for (const io::Question& question : opened_.scan->questions)
+    if (question.ask == io::Ask::spacing && !(volume_.spacing_mm.array() > 0).all()) {
+      const math::Vec3& mm = opened_.scan->spacing_mm;
+      all.push_back({word(Word::import_spacing_missing),
+                     true,
+                     {{say(Word::import_spacing_take, mm.x(), mm.y(), mm.z()), [this] {
+                         volume_.spacing_mm = opened_.scan->spacing_mm;
+                         changed();
+                       }}}});
+    }
   add_parts(all);
   const auto assumed = std::count_if(labels_.begin(), labels_.end(),
                                      [](const LabelChoice& one) { return one.assumed; });
@@ -56,9 +71,9 @@ void ImportPage::add_parts(std::vector<Doubt>& all) {
               {{word(Word::import_keep_largest), [this] {
                   keep({1, {}}, 0);
                 }}}};
-  if (found.islands > 0)
-    doubt.remedies.push_back({say(Word::import_drop_islands, importing::kIslandMm3),
-                              [this] { keep({}, importing::kIslandMm3); }});
+  // streaks of metal and noise leave crumbs of all sizes; a part of the anatomy is larger
+  doubt.remedies.push_back({say(Word::import_crumbs, 100 * kCrumb),
+                            [this, below = kCrumb * found.largest_mm3] { keep({}, below); }});
   doubt.remedies.push_back(pick);
   all.push_back(std::move(doubt));
 }

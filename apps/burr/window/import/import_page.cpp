@@ -12,6 +12,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/work.h"
+#include "window/import/series_page.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -311,6 +312,24 @@ Result<OpenedScan> read_by_page(Desk& desk, const scenario::Recipe& volume,
       desk, title, [volume](Progress& progress) { return open_scan(volume, progress); }, closed);
 }
 
+// Of several series the user chooses one; `opened` becomes that.
+Status choose_series(Desk& desk, OpenedScan& opened, const std::string& title, double seconds,
+                     bool& closed) {
+  Result<SeriesPage::Choice> choice = SeriesPage(desk, opened).ask(seconds);
+  if (!choice) return choice.error();
+  closed = choice->closed;
+  if (closed) return fine();
+  if (!choice->series) return error(Trouble::interrupted, "stopped");
+  if (*choice->series == static_cast<std::size_t>(opened.scan->series_taken)) return fine();
+  scenario::Recipe other = opened.volume;
+  other.series = fmt::format("#{}", *choice->series + 1);
+  auto reopened = read_by_page(desk, other, title, closed);
+  if (closed) return fine();
+  if (!reopened) return reopened.error();
+  opened = std::move(*reopened);
+  return fine();
+}
+
 Result<Ready> ready_from(WorkOptions options, const io::Scan& scan, Progress& progress) {
   if (const Status taken = take_case(options); !taken) return taken.error();
   options.keep_greys = true;
@@ -327,6 +346,11 @@ Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& 
   auto opened = read_by_page(desk, options.volume, title, closed);
   if (!opened) return opened.error();
   if (closed) return gone;
+  if (opened->scan->series.size() > 1 && options.volume.series.empty()) {
+    if (const Status chosen = choose_series(desk, *opened, title, seconds, closed); !chosen)
+      return chosen.error();
+    if (closed) return gone;
+  }
   auto page = std::make_unique<ImportPage>(desk, std::move(*opened));
   std::string trouble;
   for (;;) {

@@ -131,6 +131,7 @@ std::string ExportPage::step() {
 
 void ExportPage::draw() {
   Ui& ui = desk_.ui();
+  if (dialog_.open()) return dialog_.draw(ui);
   const float u = ui.unit(), w = 720 * u, h = 330 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 40 * u);
   ui.page("##export", x, y, w, h);
@@ -175,15 +176,13 @@ void ExportPage::draw() {
   ImGui::SetCursorScreenPos({x + 28 * u, y + 160 * u});
   if (request_.what == ExportWhat::film)
     ui.write(x + 28 * u, y + 118 * u, Letter::body, ink::kDim, word(Word::film_told));
-  const float other = FileDialog::there() ? 132 * u : 0;
+  const float other = 132 * u;
   const std::string was = request_.path;
   const bool entered = text_field("##where", word(Word::start_path), request_.path,
                                   w - 56 * u - other, completed_path);
   if (request_.path != was) replaces_ = false;
-  if (other > 0) {
-    ImGui::SetCursorScreenPos({x + w - 28 * u - 120 * u, y + 160 * u});
-    if (ImGui::Button(word(Word::start_file), {120 * u, 0})) dialog_.ask_where(request_.path);
-  }
+  ImGui::SetCursorScreenPos({x + w - 28 * u - 120 * u, y + 160 * u});
+  if (ImGui::Button(word(Word::start_file), {120 * u, 0})) dialog_.ask_where(request_.path);
 
   // the reason against the request, or how far the export is
   const std::string& told =

@@ -35,6 +35,9 @@ class ExportPage {
   ExportPage& operator=(const ExportPage&) = delete;
 
   [[nodiscard]] bool shown() const { return shown_; }
+  // The dialog for a path is open over it; it closes first.
+  [[nodiscard]] bool choosing() const { return dialog_.open(); }
+  void stop_choosing() { dialog_.cancel(); }
   void show(bool shown);
   void draw();
   // Call it in each frame: returns a message for the user; "" for none.

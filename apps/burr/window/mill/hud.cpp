@@ -24,7 +24,7 @@ Word picture_word(int step) {
 
 using Letter = Ui::Letter;
 
-constexpr float kStrip = 58, kMargin = 10, kPad = 14;  // [points]
+constexpr float kStrip = 58, kMargin = 10, kPad = 14, kLeft = 104;  // [points]
 
 // Draws the strip cell by cell, from the left.
 class Strip {
@@ -179,12 +179,14 @@ std::string thousands(double value) {
 
 }  // namespace
 
-void line_above(const Ui& ui, float& y, const std::string& text, bool warns) {
+void line_above(const Ui& ui, float& y, const std::string& text, bool warns, float column) {
   if (text.empty()) return;
   const float u = ui.unit(), h = 32 * u;
   const float mark = warns ? 26 * u : 0;
   const float w = std::min(ui.width_of(Letter::body, text) + mark + 28 * u, ui.width() - 20 * u);
-  const float x = (ui.width() - w) / 2;
+  // in the middle between the buttons and the slices, so that it does not lie over the scale bar
+  const float x = std::clamp((kLeft * u + ui.width() - column - w) / 2, 10 * u,
+                             std::max(10 * u, ui.width() - w - 10 * u));
   y -= h + 6 * u;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.AddRectFilled({x, y}, {x + w, y + h}, ink::kPanel, 8 * u);
@@ -268,7 +270,10 @@ void draw_hud(Ui& ui, const HudState& s) {
   if (near && !s.nearest) {
     strip.cell(160, Word::nearest_far, "> 20", "mm");
   } else if (near) {
-    strip.title(say(Word::nearest, s.nearest->name.substr(0, s.nearest->name.find(" ("))));
+    // the whole sentence if it fits, otherwise the name alone
+    const std::string name = s.nearest->name.substr(0, s.nearest->name.find(" ("));
+    const std::string whole = say(Word::nearest, name);
+    strip.title(ui.width_of(Letter::small, whole) < 142 * u ? whole : name);
     const double mm = 1e3 * s.nearest->distance;
     const std::string value = fmt::format("{:.1f}", mm);
     const ImU32 shade = mm < 1 ? ink::kBad : mm < 2 ? ink::kWarn : ink::kText;
@@ -287,8 +292,8 @@ void draw_hud(Ui& ui, const HudState& s) {
   scale_bar(ui, s);
   draw_mirror_sign(ui, s.mirror, s.column);
   float above = y;
-  line_above(ui, above, s.note, false);
-  line_above(ui, above, s.warning, true);
+  line_above(ui, above, s.note, false, s.column);
+  line_above(ui, above, s.warning, true, s.column);
 }
 
 }  // namespace burr::app

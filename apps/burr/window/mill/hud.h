@@ -59,8 +59,8 @@ void draw_hud(Ui& ui, const HudState& state);
 [[nodiscard]] float hud_height(const Ui& ui);
 
 // Writes a centred line above the strip; `y` is moved up by its height. warns: a warning sign
-// before it.
-void line_above(const Ui& ui, float& y, const std::string& text, bool warns);
+// before it. column: at the right, that slices cover [pixel].
+void line_above(const Ui& ui, float& y, const std::string& text, bool warns, float column = 0);
 
 // Writes that a mirror is on, at the top, centred in the width that `column` at the right leaves.
 // Nothing for an empty text.

@@ -3,8 +3,8 @@
 //
 // Its parts: window.cpp (the loop of pictures), mill_hand.cpp (the mouse as a hand, and what each
 // button does), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
-// mill_status.cpp (what the user reads), mill_diary.cpp (what the recording keeps), mill_steps.cpp
-// (the steps of the case, and what the mode of the session allows). Parts with a state of their own
+// mill_status.cpp (what the user reads), mill_diary.cpp (what the recording keeps), mill_names.cpp
+// (the names of structures), mill_steps.cpp (the steps of the case, and what the mode of the session allows). Parts with a state of their own
 // are classes: Drill, Press, Pointer, OverPages, WornHeadset, TickWatch, SuctionTube, Steps,
 // Technique, StepLight. Only these files include this header.
 //
@@ -33,15 +33,20 @@
 #include "window/mill/hud.h"
 #include "window/mill/injury.h"
 #include "window/mill/measuring.h"
+#include "window/mill/menu_panel.h"
 #include "window/mill/mirror_mode.h"
+#include "window/mill/orientation_cube.h"
 #include "window/mill/over_pages.h"
+#include "window/mill/pinned_labels.h"
 #include "window/mill/pointer.h"
 #include "window/mill/press.h"
 #include "window/mill/saved_views.h"
+#include "window/mill/side_panel.h"
 #include "window/mill/slices.h"
 #include "window/mill/step_light.h"
 #include "window/mill/step_watch.h"
 #include "window/mill/steps.h"
+#include "window/mill/structures.h"
 #include "window/mill/suction_tube.h"
 #include "window/mill/technique.h"
 #include "window/mill/tick_watch.h"
@@ -54,6 +59,8 @@
 #include "window/shell/status_line.h"
 
 namespace burr::app {
+
+struct KeyReach;  // mill_keys.h
 
 class Mill {
  public:
@@ -89,11 +96,28 @@ class Mill {
 
   // ---- mill_keys.cpp
   static constexpr double kDeeper = 1.25;  // a key changes the depth of the press by this factor
+  // How the mouse does what a key does: by a button of the bar, by an item of the menu, or by what
+  // `other` names (a gesture, a button on another panel). Every key has one of these.
+  struct Reach {
+    std::optional<Action> button;
+    std::string item;
+    std::optional<Word> other;
+    bool twin = false;  // the key before it in the row does the same
+  };
   struct Key {
     SDL_Keycode code;
     unsigned held;  // modifiers, of which one must be down; 0: any or none
     std::function<void(Mill&)> does;
+    Reach reach;
   };
+  friend std::vector<KeyReach> key_reaches();
+  static Key act_key(SDL_Keycode code, Action action);
+  static Key item_key(SDL_Keycode code, std::function<void(Mill&)> does, std::string item,
+                      unsigned held = 0);
+  static Key other_key(SDL_Keycode code, std::function<void(Mill&)> does, Word other,
+                       unsigned held = 0);
+  static Key twin_key(SDL_Keycode code, std::function<void(Mill&)> does, unsigned held = 0);
+  void draw_menu_panel();
   struct KeyRow {
     HelpBlock block;
     std::string label;
@@ -103,6 +127,7 @@ class Mill {
   using KeyRows = std::vector<KeyRow>;
   static KeyRows hand_keys(bool left_handed);
   static KeyRows view_keys(bool left_handed);
+  static KeyRow saved_view_keys();
   static KeyRows tool_keys();
   static KeyRows program_keys();
   static KeyRows key_rows(bool left_handed);
@@ -133,6 +158,10 @@ class Mill {
   void step_opacity(bool back);
   void toggle_sound();
   void change_loudness(int by);
+  void toggle_suction();
+  void hide_panels();
+  void suck(workshop::LiveSurface& live);
+  void toggle_menu(Menu menu);
   void mirror_at_tip();
   void mirror_next_plane();
   void note_mirror();
@@ -189,6 +218,22 @@ class Mill {
     return !steps_.empty() && options_.allowed.steps != workshop::Offer::never;
   }
 
+  // ---- mill_names.cpp
+  // In an exam without the tissues' colours there are no names either.
+  [[nodiscard]] bool names_offered() const { return options_.allowed.colours; }
+  void look_at_names();
+  [[nodiscard]] math::Vec3 slices_through();
+  void show_structures();
+  void pin_under_pointer();
+  void draw_name();
+  void draw_pins();
+  void draw_side_panel();
+  void toggle_structure(volume::TissueId id);
+  void pin_structure(volume::TissueId id);
+  void draw_orientation();
+  // Below the button at the top right [points].
+  [[nodiscard]] float cube_top() const { return options_.done_ends ? 66.0F : 10.0F; }
+
   // ---- mill_status.cpp
   void look_at_session();
   void draw_tool();
@@ -202,6 +247,7 @@ class Mill {
   void pages();
   void leave_picture();
   [[nodiscard]] HudState hud() const;
+  [[nodiscard]] ToolbarState bar_state() const;
   [[nodiscard]] float column() const;  // width at the right that slices cover [pixel]
 
   Desk& desk_;
@@ -220,18 +266,28 @@ class Mill {
   std::optional<OverPages> pages_;  // these three: made by begin()
   std::optional<Slices> slices_;
   std::optional<SavedViews> saved_views_;
-  bool task_ = true, task_read_ = false;  // task_read_: bone has been removed
+  Leaf leaf_ = Leaf::task;  // of the panel beside the tools
+  bool task_read_ = false;  // bone has been removed
   Steps steps_;
   std::optional<StepWatch> watch_;  // made by begin(), before the session starts
   bool steps_begun_ = false;
   std::string lit_step_;       // whose target is lit, or was lit last
   double removed_before_ = 0;  // up to the picture before [m^3]
-  bool steps_shown_ = false;   // the panel of the steps, where the task is not
   StepLight light_;
   Technique technique_;
   Technique::Cue cue_ = Technique::Cue::none;
   bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
-  std::vector<render::Colour> colours_;  // of the tissues, while labels are shown
+  std::vector<render::Colour> colours_;    // of the tissues, while labels are shown
+  std::optional<Structures> structures_;   // made by begin(), before the session starts
+  std::optional<Structures::Seen> under_;  // the pointer, in the bone
+  std::optional<volume::TissueId> under_in_slice_;
+  Clock::time_point named_{};  // when these two were found, and distances measured
+  PinnedLabels pins_;
+  ViewTurn view_turn_;
+  std::optional<Menu> menu_;  // which one is open
+  bool suction_ = false;
+  Clock::time_point sucked_{};
+  std::optional<math::Vec3> through_;  // the slices, where bone was last
   int picture_step_ = 0;
   Clock::time_point window_drawn_{};
 

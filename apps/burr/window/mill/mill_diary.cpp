@@ -27,8 +27,9 @@ void Mill::keep_diary() {
   if (labels_) sight.helps.insert("labels");
   if (sight.view.slices) sight.helps.insert("slices");
   if (scene_.look.opacity < 1) sight.helps.insert("see-through");
-  if (task_ && panels_ && options_.work_case) sight.helps.insert("task");
-  if (!task_ && steps_shown_ && panels_ && steps_offered()) sight.helps.insert("steps");
+  if (leaf_ == Leaf::task && panels_ && options_.work_case) sight.helps.insert("task");
+  if (leaf_ == Leaf::steps && panels_ && steps_offered()) sight.helps.insert("steps");
+  if (panels_ && (leaf_ == Leaf::structures || !pins_.empty())) sight.helps.insert("names");
   // the user is warned by the colour and the mark at the figure, or by the tone
   const bool seen = panels_ && options_.allowed.distance;
   const bool heard = options_.allowed.tone_below >= kNear && options_.loudspeaker != nullptr &&

@@ -109,15 +109,17 @@ bool Mill::aim_key(const SDL_Keysym& pressed, bool down) {
 void Mill::show_task() {
   if (!options_.work_case) return note(word(Word::task_none));
   // the task, the steps, nothing
-  const bool to_steps = task_ && steps_offered();
-  task_ = !task_ && !steps_shown_;
-  steps_shown_ = to_steps;
+  leaf_ = leaf_ == Leaf::task && steps_offered()        ? Leaf::steps
+          : leaf_ == Leaf::task || leaf_ == Leaf::steps ? Leaf::none
+                                                        : Leaf::task;
 }
 
 // Closes what is open on the page; if nothing is, the page itself.
 void Mill::go_back() {
   if (page_open()) {
     pages_->close();
+  } else if (menu_) {
+    menu_.reset();
   } else if (measuring_.on()) {
     measuring_.stop();
     note(word(Word::measure_off));
@@ -178,9 +180,24 @@ void Mill::act(Action action) {
       return note(drill_.toggle_kind());
     case Action::coolant:
       return note(drill_.toggle_coolant());
+    case Action::suction:
+      return toggle_suction();
     case Action::slices:
       slices_shown_ = !slices_shown_;
       return;
+    case Action::views:
+      return toggle_menu(Menu::views);
+    case Action::menu:
+      return toggle_menu(Menu::all);
+    case Action::structures:
+      return show_structures();
+    case Action::task:
+      return show_task();
+    case Action::picture:
+      picture_ = true;
+      return;
+    case Action::sound:
+      return toggle_sound();
     case Action::see_through:
       return step_opacity(false);
     case Action::keep:
@@ -194,6 +211,35 @@ void Mill::leave() {
     return note(word(Word::export_wait));
   closed_ = Closed::page;
   open_ = false;
+}
+
+void Mill::toggle_menu(Menu menu) {
+  if (menu_ == menu)
+    menu_.reset();
+  else
+    menu_ = menu;
+}
+
+// The tube beside the burr. It takes away water, dust and blood from the picture, and changes no
+// bone.
+void Mill::toggle_suction() {
+  suction_ = !suction_;
+  sucked_ = Clock::now();
+  note(word(suction_ ? Word::suction_on : Word::suction_off));
+}
+
+void Mill::suck(workshop::LiveSurface& live) {
+  constexpr double kBeside = 3e-3, kMost = 0.1;  // beyond the burr [m]; of one picture [s]
+  const double seconds =
+      std::chrono::duration<double>(Clock::now() - std::exchange(sucked_, Clock::now())).count();
+  if (suction_ && desk_.settings.effects)
+    live.suck(scene_.burr.world_from_tool.p, scene_.burr.radius + kBeside,
+              std::min(seconds, kMost));
+}
+
+void Mill::hide_panels() {
+  panels_ = !panels_;
+  if (!panels_) note(word(Word::panels_hidden));
 }
 
 void Mill::next_measure() {
@@ -273,6 +319,7 @@ void Mill::wheel(const SDL_MouseWheelEvent& wheel) {
 
 // in pixels of the mouse; an arrow key counts as some of them
 void Mill::turn_view(double right, double up, bool shift) {
+  view_turn_.stop();
   if (shift)
     render::pan(scene_.camera, right / pointer_.height(), up / pointer_.height());
   else
@@ -359,6 +406,7 @@ void Mill::show_labels(bool shown) {
   if (light_.is_on()) light_target();  // it has changed these colours
   labels_ = shown;
   scene_.tissue_colours = shown ? colours_ : render::as_bone(colours_);
+  structures_->hide_in(scene_.tissue_colours);
 }
 
 double Mill::aspect() const {

@@ -1,9 +1,12 @@
-// The table of keys: the action of each key, and its row on the help page.
+// The table of keys: the action of each key, how the mouse does the same, and its row on the help
+// page.
 #include "window/mill/mill_keys.h"
 
 #include <SDL2/SDL.h>
 
+#include <functional>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "window/mill/mill.h"
@@ -12,56 +15,91 @@
 
 namespace burr::app {
 
+Mill::Key Mill::act_key(SDL_Keycode code, Action action) {
+  return {code, 0, [action](Mill& m) { m.act(action); }, {action, {}, {}}};
+}
+Mill::Key Mill::item_key(SDL_Keycode code, std::function<void(Mill&)> does, std::string item,
+                         unsigned held) {
+  return {code, held, std::move(does), {{}, std::move(item), {}}};
+}
+Mill::Key Mill::other_key(SDL_Keycode code, std::function<void(Mill&)> does, Word other,
+                          unsigned held) {
+  return {code, held, std::move(does), {{}, {}, other}};
+}
+Mill::Key Mill::twin_key(SDL_Keycode code, std::function<void(Mill&)> does, unsigned held) {
+  return {code, held, std::move(does), {{}, {}, {}, true}};
+}
+
 // A row without a label is not on the help page. A row without keys is for the mouse, or its keys
 // are handled elsewhere. If a key has several entries, the first that fits is used, so entries with
 // a modifier stand first. The rows are in the order of the help page.
 Mill::KeyRows Mill::hand_keys(bool left_handed) {
+  const auto deeper = [](Mill& m) { m.push(kDeeper); };
+  const auto less = [](Mill& m) { m.push(1 / kDeeper); };
+  const auto down = [](Mill& m) { m.deepen(1); };
+  const auto up = [](Mill& m) { m.deepen(-1); };
+  const auto stop = [](Mill& m) { m.stop_or_go_on(); };
   return {
       {HelpBlock::hand, word(left_handed ? Word::key_right : Word::key_left), Word::help_mill, {}},
       {HelpBlock::hand,
        word(Word::key_space),
        Word::help_hold,
-       {{SDLK_SPACE, 0, [](Mill& m) { m.press_.toggle_hold(); }}}},
+       {item_key(
+           SDLK_SPACE, [](Mill& m) { m.press_.toggle_hold(); }, word(Word::help_hold))}},
       {HelpBlock::hand,
        "+  -",
        Word::help_push,
-       {{SDLK_PLUS, 0, [](Mill& m) { m.push(kDeeper); }},
-        {SDLK_EQUALS, 0, [](Mill& m) { m.push(kDeeper); }},
-        {SDLK_KP_PLUS, 0, [](Mill& m) { m.push(kDeeper); }},
-        {SDLK_MINUS, 0, [](Mill& m) { m.push(1 / kDeeper); }},
-        {SDLK_KP_MINUS, 0, [](Mill& m) { m.push(1 / kDeeper); }}}},
+       {item_key(SDLK_PLUS, deeper, word(Word::menu_deeper)), twin_key(SDLK_EQUALS, deeper),
+        twin_key(SDLK_KP_PLUS, deeper), item_key(SDLK_MINUS, less, word(Word::menu_less_deep)),
+        twin_key(SDLK_KP_MINUS, less)}},
       {HelpBlock::hand,
        word(Word::key_ctrl_wheel),
        Word::help_push,
-       {{SDLK_PAGEUP, KMOD_CTRL, [](Mill& m) { m.deepen(1); }},
-        {SDLK_PAGEDOWN, KMOD_CTRL, [](Mill& m) { m.deepen(-1); }},
-        {SDLK_KP_9, 0, [](Mill& m) { m.deepen(1); }},
-        {SDLK_KP_3, 0, [](Mill& m) { m.deepen(-1); }}}},
-      {HelpBlock::hand, "G", Word::help_plane, {{SDLK_g, 0, [](Mill& m) { m.toggle_plane(); }}}},
+       {other_key(SDLK_PAGEUP, down, Word::key_ctrl_wheel, KMOD_CTRL),
+        other_key(SDLK_PAGEDOWN, up, Word::key_ctrl_wheel, KMOD_CTRL),
+        other_key(SDLK_KP_9, down, Word::key_ctrl_wheel),
+        other_key(SDLK_KP_3, up, Word::key_ctrl_wheel)}},
+      {HelpBlock::hand,
+       "G",
+       Word::help_plane,
+       {item_key(
+           SDLK_g, [](Mill& m) { m.toggle_plane(); }, word(Word::help_plane))}},
       {HelpBlock::hand, word(Word::key_ctrl_arrows), Word::help_aim, {}},
       // for a haptic device: shown on the help page about pads
       {HelpBlock::hand,
        "",
        Word::real_does,
-       {{SDLK_BACKSPACE, 0, [](Mill& m) { m.stop_or_go_on(); }},
-        {SDLK_PAUSE, 0, [](Mill& m) { m.stop_or_go_on(); }},
-        {SDLK_c, 0, [](Mill& m) { m.lifts_.by_key = true; }}}},
+       {item_key(SDLK_BACKSPACE, stop, word(Word::menu_stop)), twin_key(SDLK_PAUSE, stop),
+        // held down; a device has a button for it, and the mouse needs none
+        other_key(
+            SDLK_c, [](Mill& m) { m.lifts_.by_key = true; }, Word::real_does)}},
   };
+}
+
+// Back to a saved view; with Shift the present one is saved.
+Mill::KeyRow Mill::saved_view_keys() {
+  KeyRow views = {HelpBlock::view, "F5  F6  F7  F8", Word::help_views, {}};
+  for (int slot = 1; slot <= 4; ++slot) {
+    const SDL_Keycode code = SDLK_F5 + slot - 1;
+    views.keys.push_back(item_key(
+        code, [slot](Mill& m) { m.saved_view(slot, true); }, say(Word::menu_save_view, slot),
+        KMOD_SHIFT));
+    views.keys.push_back(item_key(
+        code, [slot](Mill& m) { m.saved_view(slot, false); }, say(Word::view_shown, slot)));
+  }
+  return views;
 }
 
 Mill::KeyRows Mill::view_keys(bool left_handed) {
   constexpr double kArrow = 12;  // an arrow key counts as this many pixels of the mouse
-  const auto turn = [](SDL_Keycode code, unsigned held, double right, double up) {
-    return Key{code, held, [=](Mill& m) { m.turn_view(right, up, held != 0); }};
+  const Word turns = left_handed ? Word::key_left : Word::key_right;
+  const auto turn = [turns](SDL_Keycode code, unsigned held, double right, double up) {
+    return other_key(
+        code, [=](Mill& m) { m.turn_view(right, up, held != 0); },
+        held != 0 ? Word::key_middle : turns, held);
   };
-  KeyRow views = {HelpBlock::view, "F5  F6  F7  F8", Word::help_views, {}};
-  for (int slot = 1; slot <= 4; ++slot) {
-    const SDL_Keycode code = SDLK_F5 + slot - 1;
-    views.keys.push_back({code, KMOD_SHIFT, [slot](Mill& m) { m.saved_view(slot, true); }});
-    views.keys.push_back({code, 0, [slot](Mill& m) { m.saved_view(slot, false); }});
-  }
   return {
-      {HelpBlock::view, word(left_handed ? Word::key_left : Word::key_right), Word::help_turn, {}},
+      {HelpBlock::view, word(turns), Word::help_turn, {}},
       {HelpBlock::view,
        "",
        Word::help_shift,
@@ -75,119 +113,151 @@ Mill::KeyRows Mill::view_keys(bool left_handed) {
       {HelpBlock::view, word(Word::key_middle), Word::help_shift, {}},
       {HelpBlock::view, word(Word::key_shift_arrows), Word::help_shift, {}},
       {HelpBlock::view, word(Word::key_wheel), Word::help_zoom, {}},
-      {HelpBlock::view, "F", Word::help_first_view, {{SDLK_f, 0, [](Mill& m) { m.first_view(); }}}},
-      std::move(views),
       {HelpBlock::view,
-       "F9  F10  F11  F12",
+       "F",
+       Word::help_first_view,
+       {item_key(
+           SDLK_f, [](Mill& m) { m.first_view(); }, word(Word::help_first_view))}},
+      saved_view_keys(),
+      {HelpBlock::view,
+       "F9  F11  F12",
        Word::help_looks,
-       {{SDLK_F9, 0, [](Mill& m) { m.take_view(ViewKind::microscope); }},
-        {SDLK_F10, 0, [](Mill& m) { m.take_view(ViewKind::whole); }},
-        {SDLK_F11, 0, [](Mill& m) { m.take_view(ViewKind::endoscope); }},
-        {SDLK_F12, 0, [](Mill& m) { m.take_view(ViewKind::free); }}}},
+       {item_key(
+            SDLK_F11, [](Mill& m) { m.take_view(ViewKind::free); }, word(Word::view_free),
+            KMOD_SHIFT),
+        item_key(
+            SDLK_F9, [](Mill& m) { m.take_view(ViewKind::microscope); },
+            word(Word::view_microscope)),
+        item_key(
+            SDLK_F11, [](Mill& m) { m.take_view(ViewKind::whole); }, word(Word::view_whole)),
+        item_key(
+            SDLK_F12, [](Mill& m) { m.take_view(ViewKind::endoscope); },
+            word(Word::view_endoscope))}},
       {HelpBlock::view,
        "V  B  N",
        Word::help_slices,
-       {{SDLK_v, 0, [](Mill& m) { m.slices_shown_ = !m.slices_shown_; }},
-        {SDLK_b, 0, [](Mill& m) { m.slices_->zoom(1); }},
-        {SDLK_n, 0, [](Mill& m) { m.slices_->zoom(-1); }}}},
+       {act_key(SDLK_v, Action::slices),
+        item_key(
+            SDLK_b, [](Mill& m) { m.slices_->zoom(1); }, word(Word::menu_nearer)),
+        item_key(
+            SDLK_n, [](Mill& m) { m.slices_->zoom(-1); }, word(Word::menu_farther))}},
       {HelpBlock::view,
        "W",
        Word::help_window,
-       {{SDLK_w, 0, [](Mill& m) { m.note(m.slices_->next_window()); }}}},
-      {HelpBlock::view, "L", Word::help_labels, {{SDLK_l, 0, [](Mill& m) { m.toggle_labels(); }}}},
+       {item_key(
+           SDLK_w, [](Mill& m) { m.note(m.slices_->next_window()); }, word(Word::help_window))}},
+      {HelpBlock::view,
+       "F4  Z",
+       Word::help_names,
+       {act_key(SDLK_F4, Action::structures),
+        // the list pins with a click
+        other_key(
+            SDLK_z, [](Mill& m) { m.pin_under_pointer(); }, Word::leaf_structures)}},
+      {HelpBlock::view,
+       "L",
+       Word::help_labels,
+       {item_key(
+           SDLK_l, [](Mill& m) { m.toggle_labels(); }, word(Word::help_labels))}},
       {HelpBlock::view,
        "T",
        Word::help_see_through,
-       {{SDLK_t, KMOD_SHIFT, [](Mill& m) { m.step_opacity(true); }},
-        {SDLK_t, 0, [](Mill& m) { m.step_opacity(false); }}}},
+       {item_key(
+            SDLK_t, [](Mill& m) { m.step_opacity(true); }, word(Word::menu_less_through),
+            KMOD_SHIFT),
+        act_key(SDLK_t, Action::see_through)}},
   };
 }
 
 Mill::KeyRows Mill::tool_keys() {
-  const auto act = [](SDL_Keycode code, Action action) {
-    return Key{code, 0, [action](Mill& m) { m.act(action); }};
-  };
   return {
       {HelpBlock::tools,
        "1  2  3  4  5",
        Word::help_modes,
-       {act(SDLK_1, Action::cut), act(SDLK_2, Action::add), act(SDLK_3, Action::touch),
-        act(SDLK_4, Action::back), act(SDLK_5, Action::smooth)}},
+       {act_key(SDLK_1, Action::cut), act_key(SDLK_2, Action::add), act_key(SDLK_3, Action::touch),
+        act_key(SDLK_4, Action::back), act_key(SDLK_5, Action::smooth)}},
       {HelpBlock::tools,
        bracket_keys(),
        Word::help_sizes,
-       {act(SDLK_LEFTBRACKET, Action::smaller), act(SDLK_RIGHTBRACKET, Action::larger),
-        act(SDLK_PAGEDOWN, Action::smaller), act(SDLK_PAGEUP, Action::larger)}},
+       {act_key(SDLK_LEFTBRACKET, Action::smaller), act_key(SDLK_RIGHTBRACKET, Action::larger),
+        act_key(SDLK_PAGEDOWN, Action::smaller), act_key(SDLK_PAGEUP, Action::larger)}},
       {HelpBlock::tools, word(Word::key_shift_wheel), Word::help_sizes, {}},
       {HelpBlock::tools,
        ",  .",
        Word::help_speeds,
-       {act(SDLK_COMMA, Action::slower), act(SDLK_PERIOD, Action::faster)}},
+       {act_key(SDLK_COMMA, Action::slower), act_key(SDLK_PERIOD, Action::faster)}},
       {HelpBlock::tools,
        "U  Y",
        Word::help_undo,
-       {act(SDLK_u, Action::undo), act(SDLK_y, Action::redo)}},
-      {HelpBlock::tools, "R", Word::help_reset, {act(SDLK_r, Action::reset)}},
-      {HelpBlock::tools, "D", Word::help_measure, {act(SDLK_d, Action::measure)}},
+       {act_key(SDLK_u, Action::undo), act_key(SDLK_y, Action::redo)}},
+      {HelpBlock::tools, "R", Word::help_reset, {act_key(SDLK_r, Action::reset)}},
+      {HelpBlock::tools, "D", Word::help_measure, {act_key(SDLK_d, Action::measure)}},
       {HelpBlock::tools,
        "X",
        Word::help_mirror,
-       {{SDLK_x, KMOD_SHIFT, [](Mill& m) { m.mirror_at_tip(); }},
-        {SDLK_x, KMOD_CTRL, [](Mill& m) { m.mirror_next_plane(); }},
-        act(SDLK_x, Action::mirror)}},
+       {item_key(
+            SDLK_x, [](Mill& m) { m.mirror_at_tip(); }, word(Word::menu_mirror_tip), KMOD_SHIFT),
+        item_key(
+            SDLK_x, [](Mill& m) { m.mirror_next_plane(); }, word(Word::menu_mirror_plane),
+            KMOD_CTRL),
+        act_key(SDLK_x, Action::mirror)}},
+      {HelpBlock::tools, "K", Word::help_kind, {act_key(SDLK_k, Action::kind)}},
       {HelpBlock::tools,
-       "K",
-       Word::help_kind,
-       {{SDLK_k, 0, [](Mill& m) { m.note(m.drill_.toggle_kind()); }}}},
-      {HelpBlock::tools,
-       "I",
-       Word::help_coolant,
-       {{SDLK_i, 0, [](Mill& m) { m.note(m.drill_.toggle_coolant()); }}}},
+       "I  6",
+       Word::help_water,
+       {act_key(SDLK_i, Action::coolant), act_key(SDLK_6, Action::suction)}},
   };
 }
 
 Mill::KeyRows Mill::program_keys() {
-  const auto act = [](SDL_Keycode code, Action action) {
-    return Key{code, 0, [action](Mill& m) { m.act(action); }};
-  };
+  const auto done = [](Mill& m) { m.declare_done(); };
+  const auto answer = [](Mill& m) { m.answer_done(); };
   return {
       {HelpBlock::program,
        "Tab",
        Word::help_hide,
-       {{SDLK_TAB, 0, [](Mill& m) { m.panels_ = !m.panels_; }}}},
-      {HelpBlock::program, "", Word::help, {act(SDLK_F1, Action::help), act(SDLK_h, Action::help)}},
+       {item_key(
+           SDLK_TAB, [](Mill& m) { m.hide_panels(); }, word(Word::help_hide))}},
+      {HelpBlock::program,
+       "",
+       Word::help,
+       {act_key(SDLK_F1, Action::help), act_key(SDLK_h, Action::help),
+        act_key(SDLK_F10, Action::menu)}},
       {HelpBlock::program,
        "O  J  A",
        Word::help_steps,
-       {{SDLK_o, 0, [](Mill& m) { m.show_task(); }},
-        {SDLK_j, 0, [](Mill& m) { m.step_done(); }},
-        {SDLK_a, 0, [](Mill& m) { m.light_target(); }}}},
+       {act_key(SDLK_o, Action::task),
+        item_key(
+            SDLK_j, [](Mill& m) { m.step_done(); }, word(Word::menu_step_done)),
+        item_key(
+            SDLK_a, [](Mill& m) { m.light_target(); }, word(Word::menu_light))}},
       {HelpBlock::program,
        word(Word::key_ctrl_enter),
        Word::help_done,
-       {{SDLK_RETURN, KMOD_CTRL, [](Mill& m) { m.declare_done(); }},
-        {SDLK_KP_ENTER, KMOD_CTRL, [](Mill& m) { m.declare_done(); }},
+       {item_key(SDLK_RETURN, done, word(Word::done_button), KMOD_CTRL),
+        twin_key(SDLK_KP_ENTER, done, KMOD_CTRL),
         // the answer to the question
-        {SDLK_RETURN, 0, [](Mill& m) { m.answer_done(); }},
-        {SDLK_KP_ENTER, 0, [](Mill& m) { m.answer_done(); }}}},
-      {HelpBlock::program, "F2", Word::help_settings, {act(SDLK_F2, Action::settings)}},
-      {HelpBlock::program, "F3", Word::help_stereo, {}},  // works on every page: desk.cpp
-      {HelpBlock::program, "S", Word::key_save, {{SDLK_s, 0, [](Mill& m) { m.keep(); }}}},
-      {HelpBlock::program,
-       "P",
-       Word::help_picture,
-       {{SDLK_p, 0, [](Mill& m) { m.picture_ = true; }}}},
-      {HelpBlock::program, "E", Word::export_help, {act(SDLK_e, Action::export_)}},
-      {HelpBlock::program, "M", Word::help_sound, {{SDLK_m, 0, [](Mill& m) { m.toggle_sound(); }}}},
+        other_key(SDLK_RETURN, answer, Word::done_yes), twin_key(SDLK_KP_ENTER, answer)}},
+      {HelpBlock::program, "F2", Word::help_settings, {act_key(SDLK_F2, Action::settings)}},
+      // works on every page: desk.cpp; the settings have it for the mouse
+      {HelpBlock::program, "F3", Word::help_stereo, {}},
+      {HelpBlock::program, "S", Word::key_save, {act_key(SDLK_s, Action::keep)}},
+      {HelpBlock::program, "P", Word::help_picture, {act_key(SDLK_p, Action::picture)}},
+      {HelpBlock::program, "E", Word::export_help, {act_key(SDLK_e, Action::export_)}},
+      {HelpBlock::program, "M", Word::help_sound, {act_key(SDLK_m, Action::sound)}},
       {HelpBlock::program,
        "9  0",
        Word::help_loudness,
-       {{SDLK_9, 0, [](Mill& m) { m.change_loudness(-1); }},
-        {SDLK_0, 0, [](Mill& m) { m.change_loudness(1); }}}},
+       {item_key(
+            SDLK_9, [](Mill& m) { m.change_loudness(-1); }, word(Word::menu_quieter)),
+        item_key(
+            SDLK_0, [](Mill& m) { m.change_loudness(1); }, word(Word::menu_louder))}},
       {HelpBlock::program,
        "Esc  Q",
        Word::help_quit,
-       {{SDLK_ESCAPE, 0, [](Mill& m) { m.go_back(); }}, act(SDLK_q, Action::leave)}},
+       // Esc also closes a page, which has a button for it
+       {other_key(
+            SDLK_ESCAPE, [](Mill& m) { m.go_back(); }, Word::leave),
+        act_key(SDLK_q, Action::leave)}},
   };
 }
 
@@ -200,6 +270,8 @@ Mill::KeyRows Mill::key_rows(bool left_handed) {
 }
 
 void Mill::key(const SDL_Keysym& pressed) {
+  // the dialog takes letters and arrows itself
+  if (pages_->exporting().choosing() && pressed.sym != SDLK_ESCAPE) return;
   for (const KeyRow& row : key_rows(desk_.settings.left_handed))
     for (const Key& key : row.keys)
       if (key.code == pressed.sym && (key.held == 0 || (pressed.mod & key.held) != 0))
@@ -211,6 +283,57 @@ std::vector<HelpRow> Mill::help_rows(bool left_handed) {
   for (const KeyRow& row : key_rows(left_handed))
     if (!row.label.empty()) rows.push_back({row.block, row.label, row.says});
   return rows;
+}
+
+namespace {
+
+// "Shift+F5"
+std::string key_name(SDL_Keycode code, unsigned held) {
+  return ((held & KMOD_SHIFT) != 0  ? "Shift + "
+          : (held & KMOD_CTRL) != 0 ? "Ctrl + "
+                                    : "") +
+         std::string(SDL_GetKeyName(code));
+}
+
+// Of the menu of views.
+bool in_views(HelpBlock block) { return block == HelpBlock::view; }
+
+}  // namespace
+
+std::vector<KeyReach> key_reaches() {
+  std::vector<KeyReach> all;
+  for (const Mill::KeyRow& row : Mill::key_rows(false))
+    for (const Mill::Key& key : row.keys) {
+      KeyReach one;
+      if (key.reach.twin && !all.empty()) one = all.back();
+      one.key = key_name(key.code, key.held);
+      if (!key.reach.twin) {
+        one.button = key.reach.button;
+        one.item = key.reach.item;
+        if (key.reach.other) one.other = word(*key.reach.other);
+      }
+      all.push_back(std::move(one));
+    }
+  return all;
+}
+
+// The items of the menu are those keys of the table that have no button.
+void Mill::draw_menu_panel() {
+  if (!menu_) return;
+  std::vector<MenuItem> items;
+  std::vector<std::function<void(Mill&)>> does;
+  for (const KeyRow& row : key_rows(desk_.settings.left_handed))
+    for (const Key& key : row.keys) {
+      if (key.reach.item.empty() || in_views(row.block) != (*menu_ == Menu::views)) continue;
+      std::string name = key.reach.item;
+      if (name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
+      items.push_back({std::move(name), key_name(key.code, key.held)});
+      does.push_back(key.does);
+    }
+  const MenuPressed pressed =
+      draw_menu(desk_.ui(), word(*menu_ == Menu::views ? Word::menu_views : Word::menu_all), items);
+  if (pressed.close) menu_.reset();
+  if (pressed.item) does[*pressed.item](*this);
 }
 
 std::vector<HelpRow> mill_help_rows(bool left_handed) { return Mill::help_rows(left_handed); }

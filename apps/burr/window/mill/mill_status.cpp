@@ -15,8 +15,8 @@
 #include "burr/workshop/fault_file.h"
 #include "window/mill/mill.h"
 #include "window/mill/steps_panel.h"
-#include "window/mill/task_panel.h"
 #include "window/mill/views_bar.h"
+#include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -182,7 +182,10 @@ HudState Mill::hud() const {
   s.seconds = options_.earlier.seconds + static_cast<double>(row_.tick) / settings.servo.rate_hz;
   s.spares = options_.allowed.distance && options_.spared_distance != nullptr &&
              !options_.spared_distance->empty();
-  if (s.spares) s.nearest = nearest_;
+  if (s.spares && nearest_) {
+    s.nearest = nearest_;
+    s.nearest->name = anatomy(nearest_->name);
+  }
   s.device = hands_.real != nullptr || hands_.suction != nullptr;
   s.ticks = ticks_.health(session_.shed() != tick::Shed::none, Clock::now());
   const rt::TickSummary summary = ticks_.stats().summary();
@@ -200,6 +203,24 @@ HudState Mill::hud() const {
   return s;
 }
 
+ToolbarState Mill::bar_state() const {
+  ToolbarState state;
+  state.mode = drill_.mode();
+  state.measures = measuring_.on();
+  state.mirrors = mirror_.now().on();
+  state.diamond = scene_.burr.diamond;
+  state.coolant = drill_.irrigated();
+  state.slices = slices_shown_;
+  state.see_through = scene_.look.opacity < 1;
+  state.suction = suction_;
+  state.views = menu_ == Menu::views;
+  state.menu = menu_ == Menu::all;
+  state.structures = leaf_ == Leaf::structures;
+  state.task = leaf_ == Leaf::task || leaf_ == Leaf::steps;
+  state.sound = options_.loudspeaker != nullptr && options_.loudspeaker->is_on();
+  return state;
+}
+
 void Mill::panels() {
   Ui& ui = desk_.ui();
   measuring_.draw(ui, scene_.camera);
@@ -208,25 +229,22 @@ void Mill::panels() {
     draw_hud(ui, hud());
     slices_->write_names(scene_, ui);
     // the text disappears when the first bone is removed; a key shows it again
-    if (row_.ledger.removed > 0 && !std::exchange(task_read_, true)) {
-      steps_shown_ = steps_shown_ || (task_ && options_.allowed.steps == workshop::Offer::always);
-      task_ = false;
-    }
+    if (row_.ledger.removed > 0 && !std::exchange(task_read_, true) && leaf_ == Leaf::task)
+      leaf_ = steps_offered() && options_.allowed.steps == workshop::Offer::always ? Leaf::steps
+                                                                                   : Leaf::none;
     if (!page_open()) {
       const ViewsBar bar = draw_views_bar(ui, views_.kind(), scene_.camera.view_height());
       if (bar.view) take_view(*bar.view);
       if (bar.magnify != 0) magnify(bar.magnify);
     }
+    draw_pins();
     light_.draw(ui, scene_.camera);
-    if (task_ && options_.work_case)
-      draw_task(ui, *options_.work_case);
-    else if (steps_shown_ && steps_offered())
-      draw_steps_panel();
+    draw_side_panel();
     if (options_.done_ends && !page_open() && draw_done_button(ui, column())) declare_done();
-    const ToolbarState tools = {drill_.mode(),          measuring_.on(),    mirror_.now().on(),
-                                scene_.burr.diamond,    drill_.irrigated(), slices_shown_,
-                                scene_.look.opacity < 1};
-    if (const auto pressed = draw_toolbar(ui, tools)) act(*pressed);
+    draw_orientation();
+    draw_menu_panel();
+    if (const auto pressed = draw_toolbar(ui, bar_state())) act(*pressed);
+    if (!page_open()) draw_name();
   }
   pages();
 }

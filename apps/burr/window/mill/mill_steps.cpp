@@ -8,6 +8,7 @@
 #include "window/mill/mill.h"
 #include "window/mill/see_through.h"
 #include "window/mill/steps_panel.h"
+#include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -38,6 +39,13 @@ bool Mill::allows(Action action) const {
     case Action::coolant:
     case Action::slices:
     case Action::keep:
+    case Action::suction:
+    case Action::views:
+    case Action::structures:
+    case Action::task:
+    case Action::picture:
+    case Action::sound:
+    case Action::menu:
       return true;
     case Action::see_through:
       return options_.allowed.see_through;
@@ -147,7 +155,7 @@ void Mill::look_at_injury() {
   if (!begins || options_.allowed.injury != workshop::Injury::stop) return;
   lift();
   if (hands_.real != nullptr && !lifts_.stopped) stop_or_go_on();
-  note(say(Word::injury_stop, nearest_->name));
+  note(say(Word::injury_stop, anatomy(nearest_->name)));
   if (options_.diary != nullptr)
     static_cast<void>(options_.diary->note(
         {row_.tick, record::CourseKind::warning, "injury",

@@ -17,6 +17,7 @@ OverPages::OverPages(Desk& desk, sim::Session& session, const render::Scene& sce
       export_(desk, &session, scene, options.folder, options.film_of) {}
 
 void OverPages::close() {
+  if (export_.choosing()) return export_.stop_choosing();
   help_ = settings_ = asks_done_ = false;
   export_.show(false);
 }

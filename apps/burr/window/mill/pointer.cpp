@@ -66,9 +66,14 @@ void Pointer::step_to(double x, double y) {
   pad_y_ = y;
 }
 
+Eigen::Vector2d Pointer::in_picture() const {
+  return {static_cast<double>(mouse_x_) * desk_.renderer().width() / std::max(1, width_),
+          static_cast<double>(mouse_y_) * desk_.renderer().height() / std::max(1, height_)};
+}
+
 bool Pointer::over_slices() const {
-  const double x = static_cast<double>(mouse_x_) * desk_.renderer().width() / std::max(1, width_);
-  const double y = static_cast<double>(mouse_y_) * desk_.renderer().height() / std::max(1, height_);
+  const Eigen::Vector2d at = in_picture();
+  const double x = at.x(), y = at.y();
   return std::any_of(scene_.insets.begin(), scene_.insets.end(), [&](const render::Inset& inset) {
     return x >= inset.x && x < inset.x + inset.width && y >= inset.y && y < inset.y + inset.height;
   });

@@ -31,6 +31,8 @@ class Pointer {
   [[nodiscard]] bool over_panel() const { return !leads_ && desk_.ui().over_panel(); }
   [[nodiscard]] bool over_slices() const;
   [[nodiscard]] int height() const { return height_; }
+  // The mouse's position in the picture [pixel of the drawing area].
+  [[nodiscard]] Eigen::Vector2d in_picture() const;
   [[nodiscard]] render::Ray aim() const { return ray(aim_x_, aim_y_); }
   [[nodiscard]] render::Ray mouse() const { return ray(mouse_x_, mouse_y_); }
 

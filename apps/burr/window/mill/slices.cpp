@@ -117,6 +117,16 @@ void Slices::write_names(const render::Scene& scene, const Ui& ui) const {
   }
 }
 
+std::optional<math::Vec3> Slices::point_at(const render::Scene& scene, double x, double y) const {
+  for (std::size_t n = 0; n < scene.insets.size() && n < shown_.size(); ++n) {
+    const render::Inset& inset = scene.insets[n];
+    if (x < inset.x || x >= inset.x + inset.width || y < inset.y || y >= inset.y + inset.height)
+      continue;
+    return render::point_of(shown_[n], {x - inset.x, y - inset.y}, inset.width, inset.height);
+  }
+  return std::nullopt;
+}
+
 void Slices::update(render::Scene& scene, const math::Vec3& through, bool shown, bool labels,
                     int width, int height, int bottom) {
   scene.insets.clear();
@@ -145,6 +155,7 @@ void Slices::update(render::Scene& scene, const math::Vec3& through, bool shown,
     slicer_.draw(slice, *image);
     mark(*image, scene.burr.radius * pixels / height_);
     images_[at] = std::move(image);
+    shown_[at] = slice;
     drawn_[at] = now;
     next_ = at + 1;
     break;

@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "burr/render/scene.h"
@@ -26,6 +27,10 @@ class Slices {
   // drawing area; bottom: height at its lower edge that stays free [pixel].
   void update(render::Scene& scene, const math::Vec3& through, bool shown, bool labels, int width,
               int height, int bottom);
+
+  // The point of the bone at a position of the picture [pixel]; none: no slice is there.
+  [[nodiscard]] std::optional<math::Vec3> point_at(const render::Scene& scene, double x,
+                                                   double y) const;
 
   // Writes the names over the slices, and the patient's directions at their sides; call it within a frame of ImGui.
   void write_names(const render::Scene& scene, const Ui& ui) const;
@@ -55,6 +60,7 @@ class Slices {
   std::size_t next_ = 0;
   std::array<std::shared_ptr<const render::Image>, 3> images_;
   std::array<Clock::time_point, 3> drawn_ = {};
+  std::array<render::Slice, 3> shown_;  // as drawn last
 };
 
 }  // namespace burr::app

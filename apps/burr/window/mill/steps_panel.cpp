@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "burr/base/printable.h"
 #include "window/mill/hud.h"
+#include "window/mill/side_panel.h"
+#include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -14,7 +15,7 @@ namespace {
 
 using Letter = Ui::Letter;
 
-constexpr float kWide = 360, kPadding = 14, kRow = 22, kButtons = 34;  // [points]
+constexpr float kWide = kSideWide, kPadding = 14, kRow = 22, kButtons = 34;  // [points]
 
 struct Paragraph {
   Letter letter;
@@ -38,7 +39,7 @@ std::vector<Paragraph> paragraphs(const Steps& steps) {
   if (const std::string tool = suits(*now); !tool.empty())
     all.push_back({Letter::body, ink::kDim, say(Word::steps_tool, tool)});
   if (!now->spare.empty())
-    all.push_back({Letter::body, ink::kWarn, say(Word::task_spare, base::list_of(now->spare))});
+    all.push_back({Letter::body, ink::kWarn, say(Word::task_spare, anatomy_list(now->spare))});
   return all;
 }
 
@@ -103,7 +104,8 @@ std::string suits(const scenario::Step& step) {
 StepsPressed draw_steps(Ui& ui, const Steps& steps, bool offers_light, bool lit) {
   StepsPressed pressed;
   const float u = ui.unit(), inside = (kWide - 2 * kPadding) * u, gap = 6 * u;
-  const float x = 104 * u, y = 10 * u, room = ui.height() - hud_height(ui) - 2 * y;
+  const float x = kSideLeft * u, y = kSideLeafTop * u,
+              room = ui.height() - hud_height(ui) - y - kSideFoot * u;
   const std::vector<Paragraph> texts = paragraphs(steps);
   const auto height_of = [&](const Paragraph& one) {
     const ImFont* font = ui.font(one.letter);

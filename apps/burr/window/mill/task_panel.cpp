@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "window/mill/hud.h"
+#include "window/mill/side_panel.h"
+#include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -37,13 +39,12 @@ std::vector<Line> lines_of(const scenario::Case& work) {
   for (const scenario::Target& target : work.targets) {
     const Word says = word_of(target);
     lines.push_back({Letter::body, ink::kText,
-                     says == Word::task_remove_share ? say(says, 100 * target.share, target.tissue)
-                                                     : say(says, target.tissue)});
+                     says == Word::task_remove_share
+                         ? say(says, 100 * target.share, anatomy(target.tissue))
+                         : say(says, anatomy(target.tissue))});
   }
   if (!work.spare.empty()) {
-    std::string names;
-    for (const std::string& name : work.spare) names += (names.empty() ? "" : ", ") + name;
-    lines.push_back({Letter::body, ink::kWarn, say(Word::task_spare, names)});
+    lines.push_back({Letter::body, ink::kWarn, say(Word::task_spare, anatomy_list(work.spare))});
   }
   lines.push_back({Letter::small, ink::kDim, word(Word::task_key)});
   return lines;
@@ -58,8 +59,8 @@ std::string flowing(std::string text) {
 
 }  // namespace
 
-void draw_task(const Ui& ui, const scenario::Case& work) {
-  const float u = ui.unit(), wide = 360 * u, inside = wide - 28 * u, gap = 6 * u;
+bool draw_task(Ui& ui, const scenario::Case& work) {
+  const float u = ui.unit(), wide = kSideWide * u, inside = wide - 28 * u, gap = 6 * u;
   std::vector<Line> lines = lines_of(work);
   float high = 2 * 12 * u - gap;
   for (Line& line : lines) {
@@ -67,11 +68,13 @@ void draw_task(const Ui& ui, const scenario::Case& work) {
     const ImFont* font = ui.font(line.letter);
     high += gap + font->CalcTextSizeA(font->FontSize, FLT_MAX, inside, line.text.c_str()).y;
   }
-  const float x = 104 * u, y = 10 * u;
-  const float room = ui.height() - hud_height(ui) - 2 * y;
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.AddRectFilled({x, y}, {x + wide, y + std::min(high, room)}, ink::kPanel, 8 * u);
-  draw.PushClipRect({x, y}, {x + wide, y + std::min(high, room)}, true);
+  const float x = kSideLeft * u, y = kSideLeafTop * u;
+  high = std::min(high, ui.height() - hud_height(ui) - y - kSideFoot * u);
+  ui.panel("##task", x, y, wide, high);
+  ImGui::SetCursorScreenPos({x, y});
+  const bool clicked = ImGui::InvisibleButton("##read", {wide, high});
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect({x, y}, {x + wide, y + high}, true);
   float at = y + 12 * u;
   for (const Line& line : lines) {
     const ImFont* font = ui.font(line.letter);
@@ -80,6 +83,8 @@ void draw_task(const Ui& ui, const scenario::Case& work) {
     at += gap + font->CalcTextSizeA(font->FontSize, FLT_MAX, inside, line.text.c_str()).y;
   }
   draw.PopClipRect();
+  ImGui::End();
+  return clicked;
 }
 
 }  // namespace burr::app

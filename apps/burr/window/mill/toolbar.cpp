@@ -207,6 +207,13 @@ void operation_icon(const Pen& pen, Action action) {
       pen.draw.AddRect({c.x - 0.95F * r, c.y - 0.95F * r}, {c.x + 0.95F * r, c.y + 0.95F * r},
                        pen.shade, 0.3F * r, 0, 0.8F * pen.thick);
       break;
+    case Action::suction:  // a tube, and what it draws in
+      pen.draw.AddLine({c.x + r, c.y - r}, {c.x - 0.1F * r, c.y + 0.1F * r}, pen.shade,
+                       1.4F * pen.thick);
+      for (const float at : {-0.9F, -0.35F, 0.2F})
+        pen.draw.AddCircleFilled({c.x + at * r, c.y + (0.55F + 0.25F * at) * r}, 0.17F * r,
+                                 pen.shade, 8);
+      break;
     case Action::keep:  // a box with a mark
       pen.draw.AddRect({c.x - 0.9F * r, c.y - 0.9F * r}, {c.x + 0.9F * r, c.y + 0.9F * r},
                        pen.shade, 0.2F * r, 0, 0.8F * pen.thick);
@@ -220,6 +227,57 @@ void operation_icon(const Pen& pen, Action action) {
   }
 }
 
+// icons for what the user reads
+void reading_icon(const Pen& pen, Action action) {
+  const float r = pen.r;
+  const ImVec2 c = pen.c;
+  switch (action) {
+    case Action::views:  // an eye
+      for (const float way : {-1.0F, 1.0F})
+        pen.draw.AddBezierCubic({c.x - r, c.y}, {c.x - 0.45F * r, c.y + 0.85F * way * r},
+                                {c.x + 0.45F * r, c.y + 0.85F * way * r}, {c.x + r, c.y}, pen.shade,
+                                0.8F * pen.thick);
+      pen.draw.AddCircleFilled(c, 0.32F * r, pen.shade, 12);
+      break;
+    case Action::structures:  // a list with colours
+      for (const float at : {-0.65F, 0.0F, 0.65F}) {
+        pen.draw.AddCircleFilled({c.x - 0.7F * r, c.y + at * r}, 0.2F * r, pen.shade, 10);
+        pen.draw.AddLine({c.x - 0.25F * r, c.y + at * r}, {c.x + r, c.y + at * r}, pen.shade,
+                         0.7F * pen.thick);
+      }
+      break;
+    case Action::task:  // a sheet of paper with text
+      pen.draw.AddRect({c.x - 0.7F * r, c.y - r}, {c.x + 0.7F * r, c.y + r}, pen.shade, 0.15F * r,
+                       0, 0.7F * pen.thick);
+      for (const float at : {-0.45F, 0.0F, 0.45F})
+        pen.draw.AddLine({c.x - 0.4F * r, c.y + at * r}, {c.x + 0.4F * r, c.y + at * r}, pen.shade,
+                         0.6F * pen.thick);
+      break;
+    case Action::picture:  // a camera
+      pen.draw.AddRect({c.x - r, c.y - 0.55F * r}, {c.x + r, c.y + 0.75F * r}, pen.shade, 0.2F * r,
+                       0, 0.7F * pen.thick);
+      pen.draw.AddRectFilled({c.x - 0.35F * r, c.y - 0.85F * r}, {c.x + 0.35F * r, c.y - 0.5F * r},
+                             pen.shade);
+      pen.draw.AddCircle({c.x, c.y + 0.1F * r}, 0.35F * r, pen.shade, 16, 0.7F * pen.thick);
+      break;
+    case Action::sound:  // a loudspeaker
+      pen.draw.AddRectFilled({c.x - 0.9F * r, c.y - 0.35F * r}, {c.x - 0.4F * r, c.y + 0.35F * r},
+                             pen.shade);
+      pen.draw.AddTriangleFilled({c.x - 0.7F * r, c.y}, {c.x + 0.1F * r, c.y - 0.85F * r},
+                                 {c.x + 0.1F * r, c.y + 0.85F * r}, pen.shade);
+      pen.draw.PathArcTo(c, 0.65F * r, -0.8F, 0.8F, 12);
+      pen.draw.PathStroke(pen.shade, 0, 0.6F * pen.thick);
+      break;
+    case Action::menu:  // three bars
+      for (const float at : {-0.6F, 0.0F, 0.6F})
+        pen.draw.AddLine({c.x - 0.9F * r, c.y + at * r}, {c.x + 0.9F * r, c.y + at * r}, pen.shade,
+                         pen.thick);
+      break;
+    default:
+      break;
+  }
+}
+
 // Icons are drawn, so that no font with icons is needed. c: middle, r: half the size.
 void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
   const Pen pen = {draw, c, r, shade};
@@ -227,6 +285,7 @@ void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
   work_icon(pen, action);
   page_icon(pen, action);
   operation_icon(pen, action);
+  reading_icon(pen, action);
 }
 
 struct Button {
@@ -303,42 +362,123 @@ class Bar {
   float u_;
 };
 
+// One line of the bar: a tall button, or two small ones; with a heading above them.
+struct Line {
+  std::optional<Word> heading;
+  Button left;
+  std::optional<Button> right;
+  float gap = 0;  // below it [points]
+};
+
+// The order of an operation: burr, water, view, what is read and kept; then what changes bone in
+// other ways; then the program.
+std::vector<Line> lines() {
+  return {
+      {{}, {Action::cut, Word::cut, "1"}, {}},
+      {Word::burr,
+       {Action::smaller, Word::smaller, smaller_key()},
+       Button{Action::larger, Word::larger, larger_key()}},
+      {{}, {Action::kind, Word::help_kind, "K"}, Button{Action::coolant, Word::help_coolant, "I"}},
+      {{}, {Action::suction, Word::help_suction, "6"}, Button{Action::touch, Word::touch, "3"}},
+      {Word::speed, {Action::slower, Word::slower, ","}, Button{Action::faster, Word::faster, "."}},
+      {Word::stroke, {Action::undo, Word::undo, "U"}, Button{Action::redo, Word::redo, "Y"}},
+      {Word::help_view,
+       {Action::slices, Word::help_slices, "V"},
+       Button{Action::see_through, Word::help_see_through, "T"}},
+      {{},
+       {Action::views, Word::menu_views, "F, F5 - F8"},
+       Button{Action::structures, Word::help_names, "F4"}},
+      {Word::bar_session,
+       {Action::task, Word::help_task, "O"},
+       Button{Action::keep, Word::key_save, "S"}},
+      {{},
+       {Action::picture, Word::help_picture, "P"},
+       Button{Action::sound, Word::help_sound, "M"}},
+      {Word::help_tools,
+       {Action::measure, Word::measure, "D"},
+       Button{Action::mirror, Word::mirror, "X"}},
+      {{}, {Action::add, Word::add, "2"}, Button{Action::smooth, Word::smooth, "5"}},
+      {{}, {Action::back, Word::back, "4"}, Button{Action::reset, Word::reset, "R"}, 4},
+      {{},
+       {Action::export_, Word::export_word, "E"},
+       Button{Action::settings, Word::settings, "F2"}},
+      {{}, {Action::menu, Word::menu_all, "F10"}, Button{Action::help, Word::help, "F1"}},
+      {{}, {Action::leave, Word::leave, "Q"}, {}},
+  };
+}
+
+bool is_on(const ToolbarState& state, Action action) {
+  switch (action) {
+    case Action::cut:
+      return state.mode == tick::ToolMode::cut;
+    case Action::add:
+      return state.mode == tick::ToolMode::add;
+    case Action::touch:
+      return state.mode == tick::ToolMode::touch;
+    case Action::back:
+      return state.mode == tick::ToolMode::restore;
+    case Action::smooth:
+      return state.mode == tick::ToolMode::smooth;
+    case Action::measure:
+      return state.measures;
+    case Action::mirror:
+      return state.mirrors;
+    case Action::kind:
+      return state.diamond;
+    case Action::coolant:
+      return state.coolant;
+    case Action::suction:
+      return state.suction;
+    case Action::slices:
+      return state.slices;
+    case Action::see_through:
+      return state.see_through;
+    case Action::views:
+      return state.views;
+    case Action::structures:
+      return state.structures;
+    case Action::task:
+      return state.task;
+    case Action::sound:
+      return state.sound;
+    case Action::menu:
+      return state.menu;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
+
+std::vector<Action> toolbar_actions() {
+  std::vector<Action> all;
+  for (const Line& line : lines()) {
+    all.push_back(line.left.action);
+    if (line.right) all.push_back(line.right->action);
+  }
+  return all;
+}
 
 std::optional<Action> draw_toolbar(Ui& ui, const ToolbarState& state) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 560 * u, w = 82 * u;
+  const float h = 624 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4 * u, 3 * u});
   ui.panel("##tools", 10 * u, y, w, h);
   Bar bar(ui, pressed);
-  const tick::ToolMode mode = state.mode;
-  bar.tall({Action::cut, Word::cut, "1"}, mode == tick::ToolMode::cut);
-  bar.pair(Word::burr, {Action::smaller, Word::smaller, smaller_key()},
-           {Action::larger, Word::larger, larger_key()});
-  bar.row({Action::kind, Word::help_kind, "K"}, {Action::coolant, Word::help_coolant, "I"},
-          state.diamond, state.coolant);
-  bar.pair(Word::speed, {Action::slower, Word::slower, ","}, {Action::faster, Word::faster, "."});
-  bar.gap(2);
-  bar.pair(Word::stroke, {Action::undo, Word::undo, "U"}, {Action::redo, Word::redo, "Y"});
-  bar.pair(Word::help_view, {Action::slices, Word::help_slices, "V"},
-           {Action::see_through, Word::help_see_through, "T"}, state.slices, state.see_through);
-  bar.gap(2);
-  bar.pair(Word::help_tools, {Action::measure, Word::measure, "D"},
-           {Action::mirror, Word::mirror, "X"}, state.measures, state.mirrors);
-  bar.row({Action::add, Word::add, "2"}, {Action::touch, Word::touch, "3"},
-          mode == tick::ToolMode::add, mode == tick::ToolMode::touch);
-  bar.row({Action::back, Word::back, "4"}, {Action::smooth, Word::smooth, "5"},
-          mode == tick::ToolMode::restore, mode == tick::ToolMode::smooth);
-  bar.tall({Action::reset, Word::reset, "R"});
-  bar.gap(2);
-  bar.pair(Word::help_program, {Action::keep, Word::key_save, "S"},
-           {Action::export_, Word::export_word, "E"});
-  bar.row({Action::settings, Word::settings, "F2"}, {Action::help, Word::help, "F1"});
-  bar.tall({Action::leave, Word::leave, "Q"});
+  for (const Line& line : lines()) {
+    const bool left = is_on(state, line.left.action);
+    if (!line.right)
+      bar.tall(line.left, left);
+    else if (line.heading)
+      bar.pair(*line.heading, line.left, *line.right, left, is_on(state, line.right->action));
+    else
+      bar.row(line.left, *line.right, left, is_on(state, line.right->action));
+    if (line.gap > 0) bar.gap(line.gap);
+  }
   ImGui::End();
   ImGui::PopStyleVar(2);
   return pressed;

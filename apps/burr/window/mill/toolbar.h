@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "burr/tick/servo.h"
 #include "window/shell/ui.h"
@@ -35,14 +36,25 @@ enum class Action {
   slices,
   see_through,
   keep,
+  suction,     // on, off
+  views,       // the menu of views, open or not
+  structures,  // the list of structures
+  task,        // the text of the case, its steps
+  picture,
+  sound,  // on, off
+  menu,   // everything that has no button of its own
 };
 
 // What is on: its button has a frame.
 struct ToolbarState {
   tick::ToolMode mode = tick::ToolMode::cut;
   bool measures = false, mirrors = false, diamond = false, coolant = false, slices = false,
-       see_through = false;
+       see_through = false, suction = false, views = false, structures = false, task = false,
+       sound = false, menu = false;
 };
+
+// All actions that have a button.
+[[nodiscard]] std::vector<Action> toolbar_actions();
 
 // What an operation needs stands above what changes bone in other ways. Returns the button that was
 // pressed, if any.

@@ -60,6 +60,10 @@ void Mill::begin() {
     session_.command({tick::CommandKind::user_force, user_limit()});
   note_troubles();
   colours_ = scene_.tissue_colours;
+  structures_.emplace(session_.bone(), options_.lesson ? &*options_.lesson : nullptr,
+                      options_.work_case ? &*options_.work_case : nullptr);
+  through_ = scene_.camera.target;  // the work
+  if (!options_.work_case) leaf_ = Leaf::none;
   slices_.emplace(session_.bone(), options_.greys);
   const std::filesystem::path& state = desk_.places().state;
   saved_views_.emplace(state.empty() ? state : state / "views.toml",
@@ -88,6 +92,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
     live.look_plain();
   else if (ticks_.begun())
     live.see(workshop::wound_tick(row_, session_.settings().servo.rate_hz));
+  suck(live);
   tube_.lead(hands_.suction, scene_, live, desk_.settings.effects);
   note(headset_.begin(live.governor(), scene_.camera));
   look_at_injury();
@@ -99,9 +104,11 @@ Status Mill::frame(workshop::LiveSurface& live) {
   keep_diary();
   note(pages_->exporting().step());
   update_status();
-  slices_->update(scene_, aim_.bone_below().value_or(scene_.burr.world_from_tool.p),
-                  slices_shown_ && panels_, labels_, desk_.renderer().width(),
-                  desk_.renderer().height(), static_cast<int>(hud_height(desk_.ui())));
+  look_at_names();
+  view_turn_.step(scene_.camera, Clock::now());
+  slices_->update(scene_, slices_through(), slices_shown_ && panels_, labels_,
+                  desk_.renderer().width(), desk_.renderer().height(),
+                  static_cast<int>(hud_height(desk_.ui())));
   live.update(headset_.cameras());
   const Clock::time_point drawing = Clock::now();
   Status shown = fine();

@@ -63,7 +63,9 @@ class Watch {
     note_ = std::move(text);
     noted_ = Clock::now();
   }
-  [[nodiscard]] bool page_open() const { return help_ || (export_ && export_->shown()); }
+  [[nodiscard]] bool page_open() const {
+    return help_ || dialog_.open() || (export_ && export_->shown());
+  }
   // on the shared clock, until both have ended  [s]
   [[nodiscard]] double seconds() const {
     return std::max(first_->line().seconds, second_ ? second_->line().seconds + now_.shift : 0.0);
@@ -226,10 +228,8 @@ void Watch::close_beside() {
 
 void Watch::ask_beside() {
   if (second_) return close_beside();
-  if (FileDialog::there() && !dialog_.open())
-    dialog_.ask(false);
-  else
-    note(word(Word::replay_drop_second));
+  dialog_.ask(word(Word::dialog_second));
+  SDL_StartTextInput();
 }
 
 void Watch::shift(double by) {
@@ -284,7 +284,11 @@ void Watch::take_events() {
         break;
       case SDL_KEYDOWN:
         trouble_.clear();
-        if (!desk_.ui().typing()) key(event.key.keysym);
+        if (dialog_.open()) {  // it takes letters and arrows itself
+          if (event.key.keysym.sym == SDLK_ESCAPE) dialog_.cancel();
+        } else if (!desk_.ui().typing()) {
+          key(event.key.keysym);
+        }
         break;
       case SDL_MOUSEMOTION:
         move(event.motion);
@@ -299,7 +303,10 @@ void Watch::take_events() {
       default:
         break;
     }
-  if (auto chosen = dialog_.answer(); chosen && !chosen->empty()) dropped_.push_back(*chosen);
+  if (auto chosen = dialog_.answer()) {
+    SDL_StopTextInput();
+    if (!chosen->empty()) dropped_.push_back(*chosen);
+  }
   for (const std::string& file : std::exchange(dropped_, {})) {
     const Status opened = open_beside(file);
     if (!opened && opened.error().trouble != Trouble::interrupted) trouble_ = opened.error().text;
@@ -312,7 +319,10 @@ void Watch::key(const SDL_Keysym& pressed) {
     case SDLK_ESCAPE:
       if (page_open()) {
         help_ = false;
-        export_->show(false);
+        if (export_->choosing())
+          export_->stop_choosing();
+        else
+          export_->show(false);
         break;
       }
       [[fallthrough]];
@@ -493,6 +503,7 @@ void Watch::ring() const {
 
 void Watch::panels() {
   Ui& ui = desk_.ui();
+  if (dialog_.open()) return dialog_.draw(ui);
   ring();
   if (panels_) {
     TimelineState s;

@@ -47,7 +47,7 @@ void pad_rows(const Ui& ui, float x, float y) {
 }  // namespace
 
 bool draw_help(Ui& ui, const std::vector<HelpRow>& rows, bool& pads) {
-  const float u = ui.unit(), w = 920 * u, h = 612 * u;
+  const float u = ui.unit(), w = 920 * u, h = 636 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 20 * u);
   ui.page("##help", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::help_title));

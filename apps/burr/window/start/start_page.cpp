@@ -84,7 +84,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
     take_events();
     thumbnails_.step(desk_.renderer());  // before the page: the last picture stays visible
     const Status shown = desk_.show(
-        empty, [this] { draw(); }, true);
+        empty, [this] { draw(); }, !dialog_.open());  // it has keys of its own
     if (!shown) return shown.error();
     if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed()) thumbnails_.forget();
     if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) open(*chosen);
@@ -117,10 +117,12 @@ void StartPage::take_events() {
         break;
       case SDL_KEYDOWN: {
         const SDL_Keycode key = event.key.keysym.sym;
-        if (key == SDLK_F1) help_ = !help_;
-        if (key == SDLK_F2) settings_ = !settings_;
+        if (key == SDLK_F1 && !dialog_.open()) help_ = !help_;
+        if (key == SDLK_F2 && !dialog_.open()) settings_ = !settings_;
         if (key != SDLK_ESCAPE || desk_.ui().typing()) break;
-        if (help_ || settings_)
+        if (dialog_.open())
+          dialog_.cancel();
+        else if (help_ || settings_)
           help_ = settings_ = false;
         else
           quit();
@@ -161,6 +163,7 @@ void StartPage::draw() {
     if (page.done) settings_ = false;
   }
   if (help_ || settings_) return;
+  if (dialog_.open()) return dialog_.draw(ui);
 
   ui.page("##start", 0, 0, ui.width(), ui.height());
   // on a large screen everything is centred
@@ -266,12 +269,9 @@ void StartPage::own_scan(float x, float y, float w) {
       text_field("##path", word(Word::start_path), typed_, w - 96 * u, completed_path);
   ImGui::SetCursorScreenPos({x + w - 86 * u, y});
   if (ImGui::Button(word(Word::start_open), {86 * u, 0}) || entered) open(typed_);
-  if (!FileDialog::there()) return;
   y += 40 * u;
   ImGui::SetCursorScreenPos({x, y});
-  if (ImGui::Button(word(Word::start_file), {(w - 10 * u) / 2, 0})) dialog_.ask(false);
-  ImGui::SetCursorScreenPos({x + (w + 10 * u) / 2, y});
-  if (ImGui::Button(word(Word::start_folder), {(w - 10 * u) / 2, 0})) dialog_.ask(true);
+  if (ImGui::Button(word(Word::start_choose), {w, 0})) dialog_.ask(word(Word::dialog_open));
 }
 
 // A line that can be clicked; mark: a triangle before it, as a sign of a problem.

@@ -397,6 +397,34 @@ void say_header(const Series& series, const std::vector<Slice>& slices, const st
     scan.notices.emplace_back("The file states no usable orientation: axial slices are assumed.");
 }
 
+// The number of the study that each volume belongs to, from 1 in the order of the volumes.
+std::vector<std::size_t> studies_of(const std::vector<Series>& series,
+                                    const std::vector<Volume>& volumes) {
+  std::map<std::string, std::size_t> known;
+  std::vector<std::size_t> studies;
+  for (const Volume& volume : volumes) {
+    const std::string& uid = series[volume.series].files[volume.slices.front().file].study;
+    studies.push_back(known.try_emplace(uid, known.size() + 1).first->second);
+  }
+  return studies;
+}
+
+// One line for each volume and segmentation, where there are several.
+void list_all(const Found& found, const std::vector<Volume>& volumes, Scan& scan) {
+  // more than anyone would look through; beyond this, choose with --series
+  constexpr std::size_t kListed = 1000;
+  const std::size_t listed = volumes.size() + found.segmentations.size();
+  if (listed > 1 && listed <= kListed) {
+    const std::vector<std::size_t> studies = studies_of(found.series, volumes);
+    const bool several = std::any_of(studies.begin(), studies.end(), [](auto n) { return n > 1; });
+    for (std::size_t v = 0; v < volumes.size(); ++v)
+      scan.series.push_back(one_line(found.series[volumes[v].series], volumes[v], v) +
+                            (several ? fmt::format(", study {}", studies[v]) : ""));
+    for (std::size_t n = volumes.size(); n < listed; ++n)
+      scan.series.push_back(one_line(found.segmentations[n - volumes.size()], n));
+  }
+}
+
 }  // namespace
 
 Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& options,
@@ -416,15 +444,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
     scan.notices.push_back(
         fmt::format("{} links lead out of the folder and were not followed.", found->leading_out));
   std::vector<Volume> volumes = volumes_of(found->series);
-  // more than anyone would look through; beyond this, choose with --series
-  constexpr std::size_t kListed = 1000;
-  const std::size_t listed = volumes.size() + found->segmentations.size();
-  if (listed > 1 && listed <= kListed) {
-    for (std::size_t v = 0; v < volumes.size(); ++v)
-      scan.series.push_back(one_line(found->series[volumes[v].series], volumes[v], v));
-    for (std::size_t n = volumes.size(); n < listed; ++n)
-      scan.series.push_back(one_line(found->segmentations[n - volumes.size()], n));
-  }
+  list_all(*found, volumes, scan);
   std::vector<std::string> uids;
   for (const Series& one : found->series) uids.push_back(one.uid);
   const auto segmentation =

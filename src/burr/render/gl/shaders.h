@@ -39,7 +39,7 @@ layout(location = 0) in vec3 at_p;
 layout(location = 1) in uvec2 at_rest;
 uniform mat4 clip_from_model;
 uniform mat3 view_from_model_n;
-uniform sampler2D tissue_colours;  // colour, gloss; below it grain, pores, milk
+uniform sampler2D tissue_colours;  // colour, gloss; below it grain, pores, milk, 0 if it is not shown
 out vec3 n;
 out vec4 colour;  // and gloss
 #ifdef GRAIN
@@ -68,12 +68,14 @@ void main() {
   float t = max(-m.z, 0.0);
   m.xy += vec2(m.x >= 0.0 ? -t : t, m.y >= 0.0 ? -t : t);
   n = view_from_model_n * normalize(m);
-  int tissue = int(at_rest.x & 255u);
+  int tissue = int(at_rest.x & 255u), beneath = int(at_rest.y & 255u);
   colour = texelFetch(tissue_colours, ivec2(tissue, 0), 0);
-  vec3 under = texelFetch(tissue_colours, ivec2(int(at_rest.y & 255u), 0), 0).rgb;
+  vec3 under = texelFetch(tissue_colours, ivec2(beneath, 0), 0).rgb;
+  float seen = texelFetch(tissue_colours, ivec2(beneath, 1), 0).a;
   // the wall of a hollow has less of it: what fills the hollow has a surface of its own
   float wall = float(at_rest.y >> 16u & 255u) / 255.0;
-  colour.rgb = mix(colour.rgb, under, float(at_rest.y >> 8u & 255u) / 255.0 * (1.0 - 0.5 * wall));
+  float through = seen * float(at_rest.y >> 8u & 255u) / 255.0;
+  colour.rgb = mix(colour.rgb, under, through * (1.0 - 0.5 * wall));
 #ifdef GRAIN
   place = at_p * noises_per_m;
   grain = texelFetch(tissue_colours, ivec2(tissue, 1), 0).rgb;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "burr/render/soft_part.h"
+#include "burr/render/unseen.h"
 
 namespace burr::render::gl {
 
@@ -131,6 +132,7 @@ void Skin::update_soft(const Scene& scene, std::vector<math::Aabb>& changed) {
     if (!part.levels.empty()) changed.push_back(part.box);
     part.mesh = structure.mesh;
     part.box = structure.box;
+    part.tissue = structure.tissue;
     part.levels.clear();
     if (part.mesh == nullptr || part.mesh->vertices.empty()) continue;
     part.open = (part.mesh->vertices.front().under & kOpen) != 0;
@@ -202,8 +204,9 @@ void Skin::send_colours() {
   for (std::size_t t = 0; t < kRow; ++t) {
     const Colour colour = t < colours_.size() ? colours_[t] : Colour{1, 1, 1};
     const Material of = t < materials_.size() ? materials_[t] : Material{};
+    const std::uint8_t seen = is_unseen(colour) ? 0 : 255;
     rows[t] = {unorm(colour[0]), unorm(colour[1]), unorm(colour[2]), unorm(of.gloss)};
-    rows[kRow + t] = {unorm(of.grain), unorm(of.pores), unorm(of.milk), 255};
+    rows[kRow + t] = {unorm(of.grain), unorm(of.pores), unorm(of.milk), seen};
   }
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, colour_row_.make());
@@ -323,8 +326,11 @@ const Skin::Part::Level& Skin::coarsest(const Part& part, const Vec3& eye) const
 
 Skin::Drawn Skin::draw_soft(const Vec3& eye, const Planes& planes, bool open) {
   Drawn drawn;
+  const auto unseen = [this](const Soft& part) {
+    return part.tissue < colours_.size() && is_unseen(colours_[part.tissue]);
+  };
   for (const Soft& part : soft_)
-    if (!part.levels.empty() && (open || !part.open) && !outside(part.box, planes))
+    if (!part.levels.empty() && !unseen(part) && (open || !part.open) && !outside(part.box, planes))
       draw(part, coarsest(part, eye), drawn);
   return drawn;
 }

@@ -77,6 +77,7 @@ class Skin {
   };
   struct Soft : Part {
     std::shared_ptr<const CoarseMesh> mesh;
+    volume::TissueId tissue = 0;
     bool open = false;  // no bone covers it
   };
   // A part and the level to draw it at.
