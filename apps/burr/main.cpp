@@ -20,6 +20,7 @@
 #include "burr/base/version.h"
 #include "commands/command.h"
 #include "commands/console.h"
+#include "commands/examples.h"
 #include "commands/interrupt.h"
 #include "commands/limits.h"
 
@@ -77,16 +78,6 @@ int end(int code) {
   return code == 0 && !told ? unheard(errno) : code;
 }
 
-constexpr const char* kExamples = R"(
-examples:
-  burr run                                        mill the built-in temporal bone in a window
-  burr info ct_folder/                            what the scan contains, and the bone burr would make
-  burr mill ct_folder/ --motion pocket --burr-mm 5 --record s.mcap --picture after.png --json
-  burr replay s.mcap --check                      simulate it again and compare every tick
-  burr export s.mcap --part bone --out bone.stl   a mesh to print
-  burr phantom temporal-bone --voxel-mm 0.25 --out bone.seg.nrrd
-)";
-
 }  // namespace
 
 Command::Command(int place, Add add) { commands().emplace_back(place, add); }
@@ -109,8 +100,12 @@ int main(int argc, char** argv) {
                            fmt::format("burr {} ({})", base::version(), base::build()));
   program.set_help_all_flag("--help-all", "show the help of all subcommands");
   program.require_subcommand(0, 1);
-  program.footer(app::kExamples);
   program.add_flag("--quiet", app::quiet(), "print no progress lines");
+  program.add_flag("--percent", app::each_percent(),
+                   "print a progress line for each percent, for another program to read");
+
+  bool dry = false;
+  program.add_flag("--dry", dry, "check the command line and do nothing");
 
   app::Todo todo;
   auto& commands = app::commands();
@@ -134,12 +129,15 @@ int main(int argc, char** argv) {
     };
   });
 
+  app::add_examples(program);
+
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     const int code = program.exit(problem);
     return app::end(code == 0 ? 0 : static_cast<int>(Trouble::usage));
   }
+  if (dry) return app::end(0);
   if (!todo.work)
     todo.work = [&program] {
       fmt::print("{}", program.help());

@@ -44,13 +44,22 @@ def check_links(name, text):
                 bad.append(f"{name}: links to {target}, but {file} has no such heading")
 
 
-def check_paths(name, text):
+def what_it_adds(text):
+    """The page without its C++ and its patches, and what these add to the project: files and options (checked by how_to_*.py)."""
+    files = set(re.findall(r"`([\w/.]+)`:\n\n```cpp\n", text))
+    options = set()
+    for patch in re.findall(r"^```diff\n(.*?)^```", text, re.S | re.M):
+        options.update(re.findall(r"^\+.*\"(--[\w-]+)\"", patch, re.M))
+    return re.sub(r"^```(?:cpp|diff)\n.*?^```\n", "", text, flags=re.S | re.M), files, options
+
+
+def check_paths(name, text, added):
     for path in re.findall(r"`((?:src|docs|scripts|tests|bench|samples|scenes|cases|apps|cmake|fuzz|\.ci)/[\w./-]*)`", text):
-        if not (ROOT / path).exists() and not list(ROOT.glob(path + ".*")):
+        if path not in added and not (ROOT / path).exists() and not list(ROOT.glob(path + ".*")):
             bad.append(f"{name}: names {path}, which is not there")
 
 
-def check_command(name, line):
+def check_command(name, line, added):
     """Checks one line of a document that runs the program, ./run or ./test."""
     line = line.split("  #")[0].strip()
     line = re.sub(r"^[\w$ ]*\$ ", "", line)
@@ -85,15 +94,15 @@ def check_command(name, line):
         if word in ("|", ";", ">"):
             break
         option = word.split("=")[0]
-        if re.fullmatch(r"--[a-z][a-z-]*", option) and not re.search(re.escape(option) + r"(?![\w-])", known):
+        if option not in added and re.fullmatch(r"--[a-z][a-z-]*", option) and not re.search(re.escape(option) + r"(?![\w-])", known):
             bad.append(f"{name}: `burr {' '.join(command)}` has no {option}: {line}")
 
 
 documents = [n for n in tracked("*.md") if not n.startswith("tests/")]
 for name in documents:
-    text = (ROOT / name).read_text()
+    text, new_files, new_options = what_it_adds((ROOT / name).read_text())
     check_links(name, text)
-    check_paths(name, text)
+    check_paths(name, text, new_files)
     inside = False
     joined = ""
     for line in text.splitlines():
@@ -106,11 +115,11 @@ for name in documents:
                 joined = joined[:-1] + " "
                 continue
             if BURR.exists() or not joined.startswith(("burr", "build/release/burr")):
-                check_command(name, joined)
+                check_command(name, joined, new_options)
             joined = ""
     for code in re.findall(r"`((?:build/release/)?burr [^`]+|\./(?:run|test)[^`]*)`", text):
         if BURR.exists():
-            check_command(name, code)
+            check_command(name, code, new_options)
 
 for line in bad:
     print(line)

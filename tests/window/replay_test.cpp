@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -14,6 +15,7 @@
 #include "burr/surgeon/motion.h"
 #include "commands/recording.h"
 #include "commands/work.h"
+#include "window/replay/difference.h"
 #include "window/shell/pages.h"
 #include "window/user.h"
 
@@ -236,6 +238,11 @@ TEST_F(TwoReplays, OfOneSessionAreTheSamePictureUntilOneIsShifted) {
                        whole = desk_->renderer().shown();
                        drop(file_);
                      }},
+                    {"both, with a table", both_show(3, 3),
+                     [] {
+                       press(SDLK_c);  // colours
+                       press(SDLK_c);  // nothing over the bone
+                     }},
                     {"both", both_show(3, 3),
                      [&] {
                        same = halves_differ(desk_->renderer().shown());
@@ -317,10 +324,99 @@ TEST_F(TwoReplays, OfTwoSessionsEachShowItsOwnAndTheShorterWaitsAtItsEnd) {
             2);
 }
 
+// How many pixels of the left and the right half have this colour's hue: of the paint, in any light.
+std::pair<int, int> painted(const render::Image& image, const render::Colour& colour) {
+  std::pair<int, int> count;
+  const auto hue = [](float r, float g, float b) {
+    return std::atan2(std::sqrt(3.0F) * (g - b), 2 * r - g - b);
+  };
+  for (int y = 60; y < 520; ++y)
+    for (int x = y < 300 ? 380 : 0; x < image.width; ++x) {  // not in the table
+      const auto at = static_cast<std::size_t>(3 * (y * image.width + x));
+      const float r = image.rgb[at], g = image.rgb[at + 1], b = image.rgb[at + 2];
+      if (std::max({r, g, b}) - std::min({r, g, b}) < 60) continue;
+      if (std::abs(std::remainder(hue(r, g, b) - hue(colour[0], colour[1], colour[2]), 6.2832F)) >
+          0.3F)
+        continue;
+      ++(x < image.width / 2 ? count.first : count.second);
+    }
+  return count;
+}
+
+TEST_F(TwoReplays, AreComparedInColourAndInSlicesOfTheSamePlace) {
+  const fs::path other = folder_ / "other.mcap";
+  ASSERT_EQ(run_burr("mill phantom:block --voxel-mm 0.5 --motion slot --burr-mm 5 --seconds 3 "
+                     "--record " +
+                     other.string()),
+            0);
+  desk_->settings.effects = false;
+  auto player = record::Player::open(other.string());
+  ASSERT_TRUE(player);
+  const double end = (*player)->seconds();
+  render::Image plain, coloured, again, sliced;
+  watch_file_by(
+      kSeconds,
+      {{"one", shows(kSeconds), [&] { drop(other); }},
+       {"both, measured",
+        [&, settled = both_show(kSeconds, end)]() mutable { return settled() && seen_.measured; },
+        [&] {
+          plain = desk_->renderer().shown();
+          press(SDLK_c);
+        }},
+       {"colours", [&, wait = 0]() mutable { return seen_.coloured && ++wait > 30; },
+        [&] {
+          coloured = desk_->renderer().shown();
+          press(SDLK_v);
+        }},
+       {"slices", [&, wait = 0]() mutable { return seen_.slices == 1 && ++wait > 30; },
+        [&] {
+          sliced = desk_->renderer().shown();
+          press(SDLK_v);
+          press(SDLK_v);
+          press(SDLK_c);
+        }},
+       {"no colours", [&, wait = 0]() mutable { return !seen_.coloured && ++wait > 30; },
+        [&] {
+          again = desk_->renderer().shown();
+          press(SDLK_ESCAPE);
+        }}});
+  const auto left = painted(coloured, kLeftOnly), right = painted(coloured, kRightOnly);
+  const auto none = painted(plain, kLeftOnly);
+  // what only the left one cut: the wall of its pocket, and the bone that the right one still has
+  EXPECT_GT(left.first, none.first + 50) << "the burr hides most of it";
+  EXPECT_GT(left.second, none.second + 200);
+  EXPECT_LT(painted(again, kLeftOnly).first, none.first + 50);
+  EXPECT_GT(painted(sliced, kLeftOnly).first, left.first + 200) << "the slices are filled";
+  static_cast<void>(right);
+}
+
+TEST_F(TwoReplays, OfOneSessionHaveTheSameSlices) {
+  desk_->settings.effects = false;
+  render::Image sliced;
+  watch_file_by(6, {{"one", shows(6), [&] { drop(file_); }},
+                    {"both", both_show(6, 6), [] { press(SDLK_v); }},
+                    {"slices", [&, wait = 0]() mutable { return seen_.slices == 1 && ++wait > 40; },
+                     [&] {
+                       sliced = desk_->renderer().shown();
+                       press(SDLK_ESCAPE);
+                     }}});
+  // the column of slices is 8 pixels from the right of each half
+  int differ_by = 0, bright = 0;
+  for (int y = 20; y < 500; ++y)
+    for (int x = 480; x < 630; ++x) {
+      const auto a = static_cast<std::size_t>(3 * (y * sliced.width + x)), b = a + 3 * 640;
+      differ_by += sliced.rgb[a] != sliced.rgb[b] ? 1 : 0;
+      bright += sliced.rgb[a] > 180 ? 1 : 0;
+    }
+  EXPECT_LT(differ_by, 100);
+  EXPECT_GT(bright, 2000) << "there is bone in them";
+}
+
 // ---- films
 
 // the middle of what the export page has, at 1280 x 720
 void click_write() { click(280 + 612, 155 + 288); }
+void click_pictures() { click(280 + 181, 155 + 126); }
 void click_stop() { click(280 + 447, 155 + 288); }
 
 fs::path frame(const fs::path& folder, int number) {
@@ -343,14 +439,15 @@ TEST_F(Replay, AFilmHasThePicturesOfTheCommandLine) {
   NoProgress quiet;
   auto recorded = open_recorded(recording.string(), {}, {}, quiet);
   ASSERT_TRUE(recorded) << recorded.error().text;
-  recorded->film.fps = 5;
-  recorded->film.size = {160, 100};
+  recorded->film.plan.fps = 5;
+  recorded->film.plan.size = {160, 100};
   const auto says = [this](const std::string& words) {
     return [this, words] { return seen_.note.find(words) != std::string::npos; };
   };
   std::string asked;
   Script script({{"the end", shows(1), [] { press(SDLK_e); }},
-                 {"the page", looks(5), click_write},
+                 {"the page", looks(5), click_pictures},
+                 {"the choice", looks(5), click_write},
                  {"the film", says("5 pictures"), [] { press(SDLK_e); }},
                  {"the page again", looks(5), click_write},
                  {"the question", looks(5),
@@ -381,7 +478,8 @@ TEST_F(Replay, AFilmThatIsStoppedKeepsWhatWasMade) {
   const fs::path film = folder_ / "film";
   Script script(
       {{"a moment", shows(1), [] { press(SDLK_e); }},
-       {"the page", looks(5), click_write},
+       {"the page", looks(5), click_pictures},
+       {"the choice", looks(5), click_write},
        {"some pictures", [&] { return fs::exists(frame(film, 2)); }, [] { press(SDLK_e); }},
        {"the page again", looks(5), click_stop},
        {"the word that it stopped", [&] { return seen_.note.find("stopped") != std::string::npos; },
@@ -396,6 +494,48 @@ TEST_F(Replay, AFilmThatIsStoppedKeepsWhatWasMade) {
   EXPECT_TRUE(script.finished());
   EXPECT_TRUE(fs::exists(frame(film, 2)));
   EXPECT_FALSE(fs::exists(frame(film, static_cast<int>(25 * kSeconds) - 1)));
+}
+
+TEST_F(Replay, AFilmInOneFileShowsThePartBetweenTheMarks) {
+  Recorded recorded = open();
+  ASSERT_TRUE(recorded.bone);
+  recorded.film.plan.fps = 5;
+  recorded.film.plan.size = {160, 100};
+  double from = -1, until = -1, whole_from = -1;
+  Script script(
+      {{"a moment", shows(2), [] { press(SDLK_o); }},
+       {"the end of the part", [&] { return seen_.film_until == 2; }, [] { press(SDLK_HOME); }},
+       {"the start", shows(0), [] { press(SDLK_RIGHT); }},
+       {"a second", shows(1), [] { press(SDLK_i); }},
+       {"the beginning of the part", [&] { return seen_.film_from == 1; },
+        [&] {
+          from = seen_.film_from;
+          until = seen_.film_until;
+          press(SDLK_e);
+        }},
+       {"the page", looks(5), click_write},
+       {"the film", [&] { return seen_.note.find("film.mp4, 5 pictures") != std::string::npos; },
+        [] { press(SDLK_i); }},
+       {"the mark gone", [&] { return seen_.film_from == 0; },
+        [&] {
+          whole_from = seen_.film_from;
+          press(SDLK_ESCAPE);
+        }}},
+      seen_.note);
+  desk_->after_frame = [&script] { script.look(); };
+  const auto left =
+      watch(*desk_, recorded, {.folder = folder_.string(), .from = 2, .seen = &seen_});
+  desk_->after_frame = {};
+  ASSERT_TRUE(left) << left.error().text;
+  EXPECT_TRUE(script.finished());
+  EXPECT_EQ(from, 1);
+  EXPECT_EQ(until, 2);
+  EXPECT_EQ(whole_from, 0);
+  const std::string probe =
+      "test \"$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames,duration -of "
+      "csv=p=0 " +
+      (folder_ / "film.mp4").string() + ")\" = 1.000000,5";
+  EXPECT_EQ(std::system(probe.c_str()), 0);
 }
 
 TEST(Film, SaysWhyThereIsNone) {

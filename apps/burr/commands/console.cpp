@@ -31,7 +31,12 @@ class Console final : public Progress {
       shown_ = {};
     }
     if (!terminal_) {
-      if (fresh) fmt::print(stderr, "{} ...\n", stage);
+      const int percent = static_cast<int>(100 * fraction);
+      if (each_percent() && (fresh || percent != percent_))
+        fmt::print(stderr, "{} {} %\n", stage, percent);
+      else if (fresh)
+        fmt::print(stderr, "{} ...\n", stage);
+      percent_ = percent;
       return;
     }
     if (!fresh && fraction < 1 && seconds_since(shown_) < 0.1) return;
@@ -57,6 +62,7 @@ class Console final : public Progress {
 
   bool terminal_ = isatty(STDERR_FILENO) != 0;
   bool open_ = false;
+  int percent_ = -1;
   std::string stage_;
   Clock::time_point started_ = Clock::now(), shown_;
 };
@@ -64,6 +70,11 @@ class Console final : public Progress {
 }  // namespace
 
 bool& quiet() noexcept {
+  static bool value = false;
+  return value;
+}
+
+bool& each_percent() noexcept {
   static bool value = false;
   return value;
 }

@@ -144,6 +144,8 @@ bool is_what_it_says(const std::string& path) {
   const std::uintmax_t size = fs::file_size(path, trouble);
   if (size == 0 && !trouble) return true;
   if (ends_with(path, ".stl")) return is_stl(head, size);
+  if (ends_with(path, ".mp4"))
+    return head.substr(std::min<std::size_t>(4, head.size())).starts_with("ftyp");
   if (ends_with(path, ".html")) {
     const auto first = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
     return first != std::string::npos && head[first] == '<';

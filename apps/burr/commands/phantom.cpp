@@ -126,7 +126,8 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("phantom", "write a bone defined by a formula to a file");
+  auto* command =
+      app.add_subcommand("phantom", "write a synthetic bone, made by a formula, to a file");
   auto options = std::make_shared<Options>();
   command
       ->add_option("name", options->name,

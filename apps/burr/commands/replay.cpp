@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <utility>
@@ -27,6 +28,7 @@
 #include "burr/workshop/traces.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
+#include "commands/film_file.h"
 #include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
@@ -43,6 +45,7 @@ struct Options {
   scenario::Recipe volume;
   PictureSize size;
   double at = -1, fps = 25;
+  double from = -1, until = -1;  // of the film; below 0: start, end
   bool effects = false;
   bool check = false, json = false, window = false;
   double seconds = 0;  // shown in the window
@@ -104,9 +107,34 @@ Status draw(const Options& options, record::Player& player) {
                    options.picture);
 }
 
-// Draws the whole session as numbered pictures: from where the session looked, or, in another view,
-// from the viewpoint of its end.
+Result<FilmPlan> plan_of(const Options& options, const record::Player& player) {
+  FilmPlan plan;
+  plan.from = std::max(0.0, options.from);
+  plan.until = options.until < 0 ? player.seconds() : std::min(options.until, player.seconds());
+  plan.fps = options.fps;
+  plan.size = options.size;
+  plan.one_file = is_film_file(options.film);
+  if (plan.from >= plan.until && player.seconds() > 0)
+    return error(Trouble::usage,
+                 fmt::format("--from {} --until {}: a film must end after it begins; the recording "
+                             "is {:.1f} s long",
+                             plan.from, plan.until, player.seconds()));
+  const Status possible = check_film(options.film, options.size);
+  if (!possible) return possible.error();
+  return plan;
+}
+
+// Draws the session as a film: from where the session looked, or, in another view, from the viewpoint
+// of its end.
 Status film(const Options& options, record::Player& player) {
+  const auto plan = plan_of(options, player);
+  if (!plan) return plan.error();
+  if (!options.json) {
+    fmt::print("{}: {:.1f} s, {} pictures of {} x {} pixels, {} a second, about {}\n", options.film,
+               plan->seconds(), plan->frames(), plan->size.width, plan->size.height, plan->fps,
+               in_megabytes(plan->bytes()));
+    std::fflush(stdout);  // before the work
+  }
   auto bone = workshop::bone_of(player, options.volume, progress());
   if (!bone) return bone.error();
   auto last = player.tick_at(player.seconds());
@@ -128,23 +156,25 @@ Status film(const Options& options, record::Player& player) {
   const std::vector<record::View> views =
       as_seen(options) ? player.views() : std::vector<record::View>();
   render::HeldTool held;
-  auto reel = render::Film::in(options.film, options.size.width, options.size.height);
+  auto reel = FilmFile::open(options.film, options.size, options.fps);
   if (!reel) return reel.error();
   render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
   workshop::Traces traces(player);
-  const int frames = std::max(1, static_cast<int>(player.seconds() * options.fps));
-  for (int n = 0; n < frames; ++n) {
+  for (int n = 0; n < plan->frames(); ++n) {
     if (interrupted())
-      return error(Trouble::interrupted, "stopped; the pictures made so far are kept");
-    progress().report(static_cast<double>(n) / frames, "filming");
-    Status there = player.bone_at(n / options.fps, **bone);
+      return error(Trouble::interrupted, plan->one_file
+                                             ? "stopped; no film was written"
+                                             : "stopped; the pictures made so far are kept");
+    progress().report(static_cast<double>(n) / plan->frames(), "filming");
+    const double t = plan->moment(n);
+    Status there = player.bone_at(t, **bone);
     if (!there) return there;
     worker.settle(show);
     if (options.effects) {
-      traces.until(n / options.fps).show(wound);
+      traces.until(t).show(wound);
       wound.stain(scene);
     }
-    auto tick = player.tick_at(n / options.fps);
+    auto tick = player.tick_at(t);
     if (!tick) return tick.error();
     if (const record::View* seen = workshop::view_at(views, tick->tick))
       look_as_seen(scene, workshop::camera_of(*seen), view);
@@ -153,7 +183,9 @@ Status film(const Options& options, record::Player& player) {
     if (!written) return written;
   }
   progress().report(1, "filming");
-  fmt::print("{}: {} pictures, {} a second\n", options.film, reel->frames(), options.fps);
+  const Status whole = reel->finish();
+  if (!whole) return whole;
+  if (!options.json) fmt::print("{}: written\n", options.film);
   return fine();
 }
 
@@ -222,11 +254,13 @@ Status show(const Options& options) {
 }
 
 Status run(const Options& options) {
-  const Status possible = check_outputs({options.file, options.beside, options.volume.source,
-                                         options.volume.labels, options.volume.materials},
-                                        {{"--picture", options.picture, {".png"}},
-                                         {"--sound", options.sound, {".wav"}},
-                                         {"--screenshot", options.screenshot, {".png"}}});
+  const Status possible =
+      check_outputs({options.file, options.beside, options.volume.source, options.volume.labels,
+                     options.volume.materials},
+                    {{"--picture", options.picture, {".png"}},
+                     {"--film", is_film_file(options.film) ? options.film : "", {".mp4"}},
+                     {"--sound", options.sound, {".wav"}},
+                     {"--screenshot", options.screenshot, {".png"}}});
   if (!possible) return possible;
   if (options.window) return show(options);
   if (!options.beside.empty()) return error(Trouble::usage, "--beside needs --window");
@@ -316,7 +350,12 @@ void add(CLI::App& app, Todo& todo) {
                     "simulate it again and compare every tick and brick");
   command->add_option("--picture", options->picture,
                       "F.png: picture of the bone and the burr (see --at)");
-  command->add_option("--film", options->film, "DIR: the whole session as numbered pictures");
+  command->add_option("--film", options->film,
+                      "F.mp4: the session as a film, made by ffmpeg; or DIR: as numbered pictures");
+  command->add_option("--from", options->from, "the film begins at this second")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--until", options->until, "the film ends at this second")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--sound", options->sound, "F.wav: the sound of the whole session");
   command->add_option("--fps", options->fps, "pictures of the film per second")
       ->check(CLI::Range(0.1, 240.0))

@@ -48,8 +48,8 @@ io::ExportOptions options_of(ExportWhat what) {
 const std::vector<std::string>& endings_of(ExportWhat what) {
   static const std::vector<std::string> bone = {".stl", ".ply",      ".obj", ".3mf",
                                                 ".glb", ".seg.nrrd", ".nrrd"},
-                                        picture = {".png"}, none;
-  return what == ExportWhat::film ? none : what == ExportWhat::picture ? picture : bone;
+                                        picture = {".png"}, film = {".mp4"};
+  return what == ExportWhat::film ? film : what == ExportWhat::picture ? picture : bone;
 }
 
 std::string ending_of(const std::string& path, ExportWhat what) {
@@ -60,7 +60,7 @@ std::string ending_of(const std::string& path, ExportWhat what) {
 
 std::string path_for(const std::string& path, ExportWhat what, const std::string& ending) {
   std::string bare = path;
-  for (const ExportWhat any : {ExportWhat::bone, ExportWhat::picture})
+  for (const ExportWhat any : {ExportWhat::bone, ExportWhat::picture, ExportWhat::film})
     if (const std::string old = ending_of(path, any); !old.empty())
       bare = path.substr(0, path.size() - old.size());
   const fs::path whole(bare);
@@ -80,10 +80,13 @@ Status check_request(const ExportRequest& request) {
   if (request.path.empty()) return error(Trouble::usage, "enter a name for the file");
   std::error_code nobody_asks;
   if (request.what == ExportWhat::film) {
-    if (fs::exists(request.path, nobody_asks) && !fs::is_directory(request.path, nobody_asks))
-      return error(
-          Trouble::usage,
-          request.path + ": is a file; a film is a folder of pictures, choose another name");
+    const bool folder = fs::is_directory(request.path, nobody_asks);
+    if (is_film_file(request.path) && folder)
+      return error(Trouble::usage, request.path + ": is a folder; add a name for the film");
+    if (!is_film_file(request.path) && !folder && fs::exists(request.path, nobody_asks))
+      return error(Trouble::usage, request.path +
+                                       ": is a file; pictures of a film go into a folder, choose "
+                                       "another name, or one that ends in .mp4");
   } else if (fs::is_directory(request.path, nobody_asks))
     return error(Trouble::usage, request.path + ": is a folder; add a name for the file");
   if (request.what == ExportWhat::picture) {

@@ -20,16 +20,17 @@ enum class ExportWhat { bone, removed, picture, film };
 
 struct ExportRequest {
   ExportWhat what = ExportWhat::bone;
-  std::string path;  // for a film: its folder
+  std::string path;  // for a film of pictures: their folder
 };
 
-// The possible endings, ".stl" for example; the first is the usual one. None for a film.
+// The possible endings, ".stl" for example; the first is the usual one. A film without ending is a
+// folder of pictures.
 [[nodiscard]] const std::vector<std::string>& endings_of(ExportWhat what);
 // The path with another of these endings. If the name was made by burr, it becomes the name for
 // `what`.
 [[nodiscard]] std::string path_for(const std::string& path, ExportWhat what,
                                    const std::string& ending);
-// The ending of the path, one of endings_of(what); "": it has none of them.
+// The ending of the path, one of endings_of(what), small letters; "": it has none of them.
 [[nodiscard]] std::string ending_of(const std::string& path, ExportWhat what);
 
 // True: a file or film of this name exists.

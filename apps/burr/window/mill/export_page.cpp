@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "burr/render/picture.h"
+#include "window/replay/timeline_panel.h"
+#include "window/shell/helper_process.h"
 #include "window/shell/typed_path.h"
 #include "window/shell/words.h"
 
@@ -25,7 +27,9 @@ ExportPage::ExportPage(Desk& desk, sim::Session* session, const render::Scene& s
     changed_ = &session_->bone().add_watcher();
     request_.path = (where / "bone.stl").string();
   } else {
-    request_ = {ExportWhat::film, (where / "film").string()};
+    // without ffmpeg only pictures are possible
+    const bool pictures = program_in_path("ffmpeg").empty();
+    request_ = {ExportWhat::film, (where / (pictures ? "film" : "film.mp4")).string()};
   }
 }
 
@@ -49,6 +53,14 @@ std::string ExportPage::progress() const {
              now.stage);
 }
 
+std::optional<FilmSource> ExportPage::film() const {
+  std::optional<FilmSource> source = film_of_ ? film_of_() : std::nullopt;
+  if (!source) return source;
+  if (film_size_) source->plan.size = *film_size_;
+  source->plan.one_file = is_film_file(request_.path);
+  return source;
+}
+
 // Starts what the page shows, if it is possible.
 void ExportPage::ask(bool may_replace) {
   request_.path = cleaned_path(request_.path);
@@ -63,9 +75,13 @@ void ExportPage::ask(bool may_replace) {
     return;
   }
   if (request_.what == ExportWhat::film) {
-    const std::optional<FilmSource> source = film_of_ ? film_of_() : std::nullopt;
+    const std::optional<FilmSource> source = film();
     if (!source) {
       trouble_ = word(Word::film_of_nothing);
+      return;
+    }
+    if (const Status possible = check_film(request_.path, source->plan.size); !possible) {
+      trouble_ = possible.error().text;
       return;
     }
     work_ = std::make_unique<Loading<ExportDone>>(
@@ -117,7 +133,9 @@ std::string ExportPage::step() {
   if (!done) {
     // shows the page again with the reason, so that the user can correct it
     if (done.error().trouble == Trouble::interrupted)
-      return word(request_.what == ExportWhat::film ? Word::film_stopped : Word::export_stopped);
+      return word(request_.what != ExportWhat::film || is_film_file(request_.path)
+                      ? Word::export_stopped
+                      : Word::film_stopped);
     show(true);
     trouble_ = done.error().text;
     return {};
@@ -129,6 +147,62 @@ std::string ExportPage::step() {
   return say(Word::export_done, done->path);
 }
 
+namespace {
+
+// A button in a row of choices, framed if it is the chosen one. at: its left end, then that of the
+// next.
+bool choice(float u, float& at, float top, const char* text, bool chosen, float wide) {
+  ImGui::SetCursorScreenPos({at, top});
+  if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ink::rgb(86, 180, 233, 90));
+  const bool pressed = ImGui::Button(text, {wide, 0});
+  if (chosen) {
+    ImGui::PopStyleColor();
+    ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                        ink::kAccent, 6 * u, 0, 1.5F * u);
+  }
+  at += wide + 8 * u;
+  return pressed;
+}
+
+constexpr PictureSize kFilmSizes[] = {{1280, 720}, {1920, 1080}, {3840, 2160}};
+
+}  // namespace
+
+// The row of endings; for a film also pictures, and sizes.
+void ExportPage::draw_endings(float x, float y) {
+  const float u = desk_.ui().unit();
+  float at = x;
+  const auto take = [&](const std::string& ending) {
+    request_.path = path_for(request_.path, request_.what, ending);
+    replaces_ = false;
+    trouble_.clear();
+  };
+  const std::string now = ending_of(request_.path, request_.what);
+  for (const std::string& ending : endings_of(request_.what))
+    if (choice(u, at, y, ending.c_str(), now == ending, (ending.size() > 5 ? 96 : 70) * u))
+      take(ending);
+  if (request_.what != ExportWhat::film) return;
+  if (choice(u, at, y, word(Word::film_pictures), now.empty(), 150 * u)) take("");
+  const auto source = film();
+  for (const PictureSize& size : kFilmSizes) {
+    const bool chosen =
+        source && source->plan.size.width == size.width && source->plan.size.height == size.height;
+    if (choice(u, at, y, fmt::format("{} × {}", size.width, size.height).c_str(), chosen, 124 * u))
+      film_size_ = size;
+  }
+}
+
+// What the film will be: which part, how many pictures, how large.
+void ExportPage::draw_film_plan(float x, float y) const {
+  const auto source = film();
+  if (!source) return;
+  const FilmPlan& plan = source->plan;
+  desk_.ui().write(
+      x, y, Letter::body, ink::kDim,
+      say(Word::film_told, clock_of(plan.from), clock_of(plan.until), plan.seconds(), plan.frames(),
+          plan.size.width, plan.size.height, in_megabytes(plan.bytes())));
+}
+
 void ExportPage::draw() {
   Ui& ui = desk_.ui();
   if (dialog_.open()) return dialog_.draw(ui);
@@ -136,18 +210,6 @@ void ExportPage::draw() {
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 40 * u);
   ui.page("##export", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Letter::large, ink::kText, word(Word::export_title));
-  const auto choice = [&](float& at, float top, const char* text, bool chosen, float wide) {
-    ImGui::SetCursorScreenPos({at, top});
-    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ink::rgb(86, 180, 233, 90));
-    const bool pressed = ImGui::Button(text, {wide, 0});
-    if (chosen) {
-      ImGui::PopStyleColor();
-      ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
-                                          ink::kAccent, 6 * u, 0, 1.5F * u);
-    }
-    at += wide + 8 * u;
-    return pressed;
-  };
 
   float at = x + 28 * u;
   for (const auto& [what, name] : {std::pair{ExportWhat::bone, Word::export_bone},
@@ -156,26 +218,18 @@ void ExportPage::draw() {
                                    {ExportWhat::film, Word::export_film}}) {
     const ExportWhat one = what;  // a lambda may not capture a structured binding
     if (session_ == nullptr && (one == ExportWhat::bone || one == ExportWhat::removed)) continue;
-    if (!choice(at, y + 66 * u, word(name), request_.what == one, 158 * u)) continue;
+    if (!choice(u, at, y + 66 * u, word(name), request_.what == one, 158 * u)) continue;
     std::string ending = ending_of(request_.path, one);
     if (ending.empty() && !endings_of(one).empty()) ending = endings_of(one).front();
+    if (one == ExportWhat::film && program_in_path("ffmpeg").empty()) ending.clear();
     request_.what = one;
     request_.path = path_for(request_.path, one, ending);
     replaces_ = false;
     trouble_.clear();
   }
-  at = x + 28 * u;
-  for (const std::string& ending : endings_of(request_.what))
-    if (choice(at, y + 112 * u, ending.c_str(), ending_of(request_.path, request_.what) == ending,
-               (ending.size() > 5 ? 96 : 70) * u)) {
-      request_.path = path_for(request_.path, request_.what, ending);
-      replaces_ = false;
-      trouble_.clear();
-    }
+  draw_endings(x + 28 * u, y + 112 * u);
 
   ImGui::SetCursorScreenPos({x + 28 * u, y + 160 * u});
-  if (request_.what == ExportWhat::film)
-    ui.write(x + 28 * u, y + 118 * u, Letter::body, ink::kDim, word(Word::film_told));
   const float other = 132 * u;
   const std::string was = request_.path;
   const bool entered = text_field("##where", word(Word::start_path), request_.path,
@@ -184,6 +238,9 @@ void ExportPage::draw() {
   ImGui::SetCursorScreenPos({x + w - 28 * u - 120 * u, y + 160 * u});
   if (ImGui::Button(word(Word::start_file), {120 * u, 0})) dialog_.ask_where(request_.path);
 
+  const bool is_film = request_.what == ExportWhat::film;
+  if (is_film) draw_film_plan(x + 28 * u, y + 202 * u);
+
   // the reason against the request, or how far the export is
   const std::string& told =
       replaces_          ? say(Word::export_exists, fs::path(request_.path).filename().string())
@@ -191,16 +248,17 @@ void ExportPage::draw() {
                          : trouble_;
   if (!told.empty()) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float top = y + (is_film ? 228 : 204) * u;
     float from = x + 28 * u;
     if (replaces_ || !trouble_.empty()) {
-      const float cx = from + 8 * u, cy = y + 213 * u, r = 8 * u;
+      const float cx = from + 8 * u, cy = top + 9 * u, r = 8 * u;
       draw.AddTriangleFilled({cx - r, cy + 0.8F * r}, {cx + r, cy + 0.8F * r}, {cx, cy - 0.9F * r},
                              ink::kWarn);
       from += 26 * u;
     }
     const ImFont* font = ui.font(Letter::body);
     draw.PushClipRect({x, y}, {x + w, y + h - 60 * u}, true);
-    draw.AddText(font, font->FontSize, {from, y + 204 * u}, ink::kText, told.c_str(), nullptr,
+    draw.AddText(font, font->FontSize, {from, top}, ink::kText, told.c_str(), nullptr,
                  x + w - 28 * u - from);
     draw.PopClipRect();
   }

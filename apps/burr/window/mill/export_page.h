@@ -23,7 +23,8 @@ namespace burr::app {
 
 class ExportPage {
  public:
-  // Gives the source for a film of the session so far; none: nothing is recorded.
+  // Gives the source for a film of the session so far, or of a part of the recording; none: nothing
+  // is recorded. The page sets the size.
   using FilmOf = std::function<std::optional<FilmSource>()>;
 
   // Make it before the session starts, because it adds a watcher. session: nullptr if a recording
@@ -49,6 +50,9 @@ class ExportPage {
 
  private:
   void ask(bool may_replace);
+  [[nodiscard]] std::optional<FilmSource> film() const;
+  void draw_endings(float x, float y);
+  void draw_film_plan(float x, float y) const;
 
   Desk& desk_;
   sim::Session* session_;
@@ -57,6 +61,7 @@ class ExportPage {
   rt::ChangedBits* changed_ = nullptr;
   bool shown_ = false, replaces_ = false;  // replaces_: the page asks whether it may
   ExportRequest request_;
+  std::optional<PictureSize> film_size_;  // as chosen
   std::string trouble_;
   FileDialog dialog_;
   std::shared_ptr<const volume::Bone> before_;

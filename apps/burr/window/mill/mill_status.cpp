@@ -142,12 +142,15 @@ void Mill::update_status() {
   if (lasting.empty() && session_.servo().released() && (row_.hand.buttons & device::kLifted) == 0)
     warning_ += (warning_.empty() ? "" : ". ") + std::string(word(Word::begins_free));
   note_ = status_.note(now, pages_->exporting().progress());
-  if (note_.empty()) note_ = measuring_.words();
-  if (note_.empty() && hands_.real == nullptr && row_.ledger.removed <= 0) note_ = hint();
+  // the value of a measurement is not kept: the strip shows the one that stands in the picture
+  const std::string measured = note_.empty() ? measuring_.words() : std::string();
+  if (note_.empty() && measured.empty() && hands_.real == nullptr && row_.ledger.removed <= 0)
+    note_ = hint();
   const std::string& trouble = pages_->exporting().trouble();
-  desk_.status_text = !trouble.empty()                    ? trouble
-                      : warning_.empty() || note_.empty() ? warning_ + note_
-                                                          : warning_ + "; " + note_;
+  const std::string& told = note_.empty() ? measured : note_;
+  desk_.status_text = !trouble.empty()                   ? trouble
+                      : warning_.empty() || told.empty() ? warning_ + told
+                                                         : warning_ + "; " + told;
 }
 
 float Mill::column() const {
@@ -197,7 +200,7 @@ HudState Mill::hud() const {
   s.pixel = scene_.camera.view_height() / std::max(1, desk_.renderer().height());
   if (const edit::Mirror mirror = mirror_.now(); mirror.on())
     s.mirror = mirror_words(session_.bone().grid(), mirror);
-  s.note = note_;
+  s.note = note_.empty() ? measuring_.words() : note_;
   if (s.note.empty() && cue_ != Technique::Cue::none) s.note = cue_text();
   s.warning = warning_;
   return s;

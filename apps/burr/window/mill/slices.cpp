@@ -78,12 +78,18 @@ void Slices::pull_window(double right, double up) {
   drawn_ = {};
 }
 
+void Slices::paint_with(Paint paint) {
+  if (!paint && !paint_) return;
+  if (!paint != !paint_) drawn_ = {};
+  paint_ = std::move(paint);
+}
+
 void Slices::zoom(int steps) {
   height_ = std::clamp(height_ * std::pow(1.25, -steps), 5e-3, 0.3);
   drawn_ = {};
 }
 
-void Slices::write_names(const render::Scene& scene, const Ui& ui) const {
+void Slices::write_names(const render::Scene& scene, const Ui& ui, float from) const {
   const float u = ui.unit();
   // light on a dark plate, readable on bone and on air
   const auto write = [&](Ui::Letter size, float x, float y, const std::string& text) {
@@ -99,7 +105,7 @@ void Slices::write_names(const render::Scene& scene, const Ui& ui) const {
   constexpr auto kSmall = Ui::Letter::small;
   const float high = ui.height_of(kSmall);
   for (std::size_t n = 0; n < scene.insets.size(); ++n) {
-    const float left = static_cast<float>(scene.insets[n].x),
+    const float left = from + static_cast<float>(scene.insets[n].x),
                 top = static_cast<float>(scene.insets[n].y),
                 edge = static_cast<float>(scene.insets[n].width);
     write(Ui::Letter::strong, left + 10 * u, top + 8 * u,
@@ -153,6 +159,7 @@ void Slices::update(render::Scene& scene, const math::Vec3& through, bool shown,
       slice.level = level_;
     }
     slicer_.draw(slice, *image);
+    if (paint_) paint_(slice, *image);
     mark(*image, scene.burr.radius * pixels / height_);
     images_[at] = std::move(image);
     shown_[at] = slice;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,9 +32,13 @@ class Slices {
   // The point of the bone at a position of the picture [pixel]; none: no slice is there.
   [[nodiscard]] std::optional<math::Vec3> point_at(const render::Scene& scene, double x,
                                                    double y) const;
+  // Called for each slice after it was drawn, to paint on it; empty: nothing.
+  using Paint = std::function<void(const render::Slice& slice, render::Image& image)>;
+  void paint_with(Paint paint);
 
   // Writes the names over the slices, and the patient's directions at their sides; call it within a frame of ImGui.
-  void write_names(const render::Scene& scene, const Ui& ui) const;
+  // from: x of the left edge of the scene's picture [pixel].
+  void write_names(const render::Scene& scene, const Ui& ui, float from = 0) const;
 
   // Zooms by steps of a quarter; above 0: in.
   void zoom(int steps);
@@ -54,6 +59,7 @@ class Slices {
   [[nodiscard]] std::string window_words() const;
 
   std::shared_ptr<const volume::Greys> greys_;
+  Paint paint_;
   std::size_t chosen_ = 0;            // index of the window; 0: the model
   double window_ = 4000, level_ = 0;  // as chosen or changed
   double height_ = 40e-3;             // of the region that a slice shows

@@ -147,7 +147,7 @@ bool draw_done_button(Ui& ui, float column) {
   ui.panel("##iamdone", ui.width() - column - wide - 10 * u, 10 * u, wide, high);
   const bool pressed = ImGui::Button(word(Word::done_button), {wide - 16 * u, high - 16 * u});
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s  [%s]", word(Word::done_button), word(Word::key_ctrl_enter));
+    ImGui::SetTooltip("%s  ( %s )", word(Word::done_button), word(Word::key_ctrl_enter));
   ImGui::End();
   ImGui::PopStyleVar();
   return pressed;

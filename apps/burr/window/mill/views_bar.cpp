@@ -68,9 +68,9 @@ ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field) {
     const char* key;
   };
   constexpr std::array<Entry, 4> kEntries = {{{ViewKind::microscope, Word::view_microscope, "F9"},
-                                              {ViewKind::whole, Word::view_whole, "F10"},
-                                              {ViewKind::endoscope, Word::view_endoscope, "F11"},
-                                              {ViewKind::free, Word::view_free, "F12"}}};
+                                              {ViewKind::whole, Word::view_whole, "F11"},
+                                              {ViewKind::endoscope, Word::view_endoscope, "F12"},
+                                              {ViewKind::free, Word::view_free, "Shift F11"}}};
   ViewsBar out;
   const float u = ui.unit();
   const bool scope = kind == ViewKind::microscope;

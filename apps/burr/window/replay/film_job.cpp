@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <thread>
@@ -24,12 +25,21 @@ fs::path picture(const fs::path& folder, int number) {  // the names of render::
   return folder / fmt::format("frame_{:06d}.png", number);
 }
 
-std::vector<std::string> command_of(const FilmSource& source, const std::string& folder) {
+// What the process says while it works: "filming 12 %".
+double share_in(const std::string& line) {
+  int percent = 0;
+  return std::sscanf(line.c_str(), "filming %d %%", &percent) == 1 ? percent / 100.0 : -1;
+}
+
+std::vector<std::string> command_of(const FilmSource& source, const std::string& path) {
+  const FilmPlan& plan = source.plan;
   std::vector<std::string> words = {
-      burr_itself(), "--quiet", "replay", source.recording,
-      "--film",      folder,    "--fps",  fmt::format("{}", source.fps)};
+      burr_itself(), "--percent", "replay", source.recording,
+      "--film",      path,        "--fps",  fmt::format("{}", plan.fps)};
   words.insert(words.end(),
-               {"--picture-size", fmt::format("{},{}", source.size.width, source.size.height)});
+               {"--picture-size", fmt::format("{},{}", plan.size.width, plan.size.height)});
+  if (plan.from > 0) words.insert(words.end(), {"--from", fmt::format("{}", plan.from)});
+  if (plan.until > plan.from) words.insert(words.end(), {"--until", fmt::format("{}", plan.until)});
   const auto add = [&words](const char* option, const std::string& value) {
     if (value.empty()) return;
     words.emplace_back(option);
@@ -55,33 +65,31 @@ FilmSource film_of(sim::Session& session, const std::string& recording,
     source.volume.source.clear();
   tick::TickRow row;
   if (session.view(row))
-    source.seconds = static_cast<double>(row.tick) / session.settings().servo.rate_hz;
+    source.plan.until = static_cast<double>(row.tick) / session.settings().servo.rate_hz;
   return source;
 }
 
-bool holds_film(const std::string& folder) {
+bool holds_film(const std::string& path) {
   std::error_code nobody_asks;
-  return fs::exists(picture(folder, 1), nobody_asks);
+  return fs::exists(is_film_file(path) ? fs::path(path) : picture(path, 1), nobody_asks);
 }
 
-Result<int> write_film(const FilmSource& source, const std::string& folder, Progress& progress) {
-  const int expected = std::max(1, static_cast<int>(source.seconds * source.fps));
+Result<int> write_film(const FilmSource& source, const std::string& path, Progress& progress) {
   progress.report(0, "");
   std::error_code nobody_asks;
-  for (int n = 1; fs::remove(picture(folder, n), nobody_asks); ++n) continue;
+  if (!is_film_file(path))
+    for (int n = 1; fs::remove(picture(path, n), nobody_asks); ++n) continue;
 
-  HelperProcess child(command_of(source, folder));
+  HelperProcess child(command_of(source, path));
   if (!child.began())
     return error(
         Trouble::io,
         "the process that makes the film could not be started; close other programs and try again");
-  int made = 0;
   bool stopped = false;
   auto stopped_at = std::chrono::steady_clock::now();
   while (!child.ended()) {
     std::this_thread::sleep_for(kLook);
-    while (fs::exists(picture(folder, made + 1), nobody_asks)) ++made;
-    progress.report(std::min(1.0, static_cast<double>(made) / expected), "");
+    if (const double share = share_in(child.last_line()); share >= 0) progress.report(share, "");
     if (progress.cancelled() && !std::exchange(stopped, true)) {
       child.stop();
       stopped_at = std::chrono::steady_clock::now();
@@ -91,7 +99,9 @@ Result<int> write_film(const FilmSource& source, const std::string& folder, Prog
   if (stopped) return error(Trouble::interrupted, "stopped");
   if (!child.fine())
     return error(Trouble::io, child.complaint("the film ended early, without a message"));
-  while (fs::exists(picture(folder, made + 1), nobody_asks)) ++made;
+  if (is_film_file(path)) return source.plan.frames();
+  int made = 0;
+  while (fs::exists(picture(path, made + 1), nobody_asks)) ++made;
   return made;
 }
 

@@ -46,7 +46,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   }
   out.film.recording = file;
   out.film.volume = volume;
-  out.film.seconds = out.player->seconds();
+  out.film.plan.until = out.player->seconds();
   auto watched = workshop::watch(*out.player, volume, progress);
   if (!watched) return watched.error();
   out.bone = std::move(watched->bone);

@@ -17,6 +17,7 @@
 #include "window/mill/measuring.h"
 #include "window/mill/mirror_mode.h"
 #include "window/mill/see_through.h"
+#include "window/replay/comparison.h"
 #include "window/replay/replay_view.h"
 #include "window/replay/split_view.h"
 #include "window/replay/timeline_panel.h"
@@ -44,14 +45,20 @@ class Watch {
  private:
   void take_events();
   void key(const SDL_Keysym& pressed);
+  void telling_key(SDL_Keycode sym);
   void move(const SDL_MouseMotionEvent& motion);
   void go(double t);
   void play(bool playing);
   void change_pace(int by);
+  void film_here(bool begins);
   void turn_view(double right, double up, bool shift);
   Status show();
   Status open_beside(const std::string& file);
   void close_beside();
+  void tell();
+  void draw_slices();
+  void next_comparison();
+  void next_slices();
   void ask_beside();
   void shift(double by);
   void follow();
@@ -83,6 +90,9 @@ class Watch {
   std::unique_ptr<Recorded> beside_;  // shown by second_, if there is one
   std::optional<ReplayView> second_;
   render::Camera second_view_;
+  std::optional<FactsJob> facts_;           // of the first recording
+  std::unique_ptr<Comparison> comparison_;  // with the second one
+  enum class Compare { none, table, colours } compare_ = Compare::table;
   std::optional<SplitView> pair_;
   FileDialog dialog_;
   std::vector<std::string> dropped_;
@@ -101,6 +111,8 @@ Result<Closed> Watch::run() {
   desk_.renderer().title("burr");
   export_.emplace(desk_, nullptr, scene_, options_.folder, [this] {
     recorded_.film.effects = desk_.settings.effects;
+    recorded_.film.plan.from = now_.film_from;
+    recorded_.film.plan.until = now_.film_until;
     return std::optional(recorded_.film);
   });
   first_view_ = scene_.camera;
@@ -109,6 +121,8 @@ Result<Closed> Watch::run() {
     const Status opened = open_beside(options_.beside);
     if (!opened && opened.error().trouble != Trouble::interrupted) return opened.error();
   }
+  now_.film_until = first_->line().seconds;
+  if (!workshop::read_spared(recorded_.player->info()).empty()) facts_.emplace(recorded_);
   now_.t = std::max(0.0, options_.from);
   now_.playing = options_.from < 0 || options_.until > options_.from;
   stop_at_ = options_.until > options_.from ? options_.until : seconds();
@@ -150,6 +164,7 @@ Result<Closed> Watch::run() {
   }
   export_.reset();
   close_beside();
+  facts_.reset();
   first_.reset();
   if (!shown) return shown.error();
   if (!options_.screenshot.empty()) {
@@ -161,12 +176,15 @@ Result<Closed> Watch::run() {
 
 // Draws one picture: of one recording, or of both in halves of the window.
 Status Watch::show() {
-  first_->look(desk_.settings.effects, now_.playing);
+  // dust would lie over the colours
+  const bool effects = desk_.settings.effects && !(comparison_ && compare_ == Compare::colours);
+  first_->look(effects, now_.playing);
+  if (second_) second_->look(effects, now_.playing);
+  tell();
   const auto over = panels_ || page_open() ? [this] { panels(); } : std::function<void()>();
   Status shown = fine();
   if (second_) {
     follow();
-    second_->look(desk_.settings.effects, now_.playing);
     shown = pair_->draw({&scene_, &second_->scene()}, desk_.renderer().width(),
                         desk_.renderer().height());
     desk_.renderer().make_current();
@@ -210,20 +228,62 @@ Status Watch::open_beside(const std::string& file) {
   second_->show_labels(labels_);
   second_view_ = beside_->scene.camera;
   // if both have the same bone, both are seen from the same viewpoint
-  const volume::Grid &one = recorded_.bone->grid(), &other = beside_->bone->grid();
-  if ((one.world_from_grid(math::Vec3::Zero()) - other.world_from_grid(math::Vec3::Zero())).norm() <
-          1e-9 &&
-      one.voxel == other.voxel && one.size == other.size)
-    second_view_ = first_view_;
+  if (same_grid(recorded_.bone->grid(), beside_->bone->grid())) second_view_ = first_view_;
   pair_.emplace();
+  if (!facts_) facts_.emplace(recorded_);
+  comparison_ = std::make_unique<Comparison>(*first_, *second_);
   return fine();
 }
 
 void Watch::close_beside() {
+  comparison_.reset();
   pair_.reset();
   second_.reset();
   beside_.reset();
   now_.shift = 0;
+}
+
+// What is told of the recordings: distances, the table, the colours, slices.
+void Watch::tell() {
+  if (facts_) facts_->step();
+  const Facts* first = facts_ ? facts_->facts() : nullptr;
+  if (comparison_) {
+    comparison_->step(first);
+    comparison_->colour(compare_ == Compare::colours);
+  }
+  draw_slices();
+  now_.measured = first != nullptr && (!comparison_ || comparison_->right() != nullptr);
+  now_.coloured = comparison_ && comparison_->coloured();
+}
+
+// Slices of both at the same place, in a column at the right of each half.
+void Watch::draw_slices() {
+  const int height = desk_.renderer().height();
+  const int wide = second_ ? desk_.renderer().width() / 2 : desk_.renderer().width();
+  const int bottom = static_cast<int>(184 * desk_.ui().unit());
+  const ReplayView& of = now_.slices == 2 && second_ ? *second_ : *first_;
+  const math::Vec3 place = of.place();
+  first_->slices().update(scene_, place, now_.slices != 0, labels_, wide, height, bottom);
+  if (second_)
+    second_->slices().update(second_->scene(), place, now_.slices != 0, labels_,
+                             desk_.renderer().width() - wide, height, bottom);
+}
+
+void Watch::next_comparison() {
+  if (!comparison_) return note(word(Word::replay_drop_second));
+  compare_ = compare_ == Compare::none    ? Compare::table
+             : compare_ == Compare::table ? Compare::colours
+                                          : Compare::none;
+  if (compare_ == Compare::colours && now_.measured && !comparison_->comparable())
+    note(word(Word::beside_other_bone));
+}
+
+void Watch::next_slices() {
+  now_.slices = (now_.slices + 1) % (second_ ? 3 : 2);
+  if (now_.slices != 0)
+    note(word(now_.slices == 2 ? Word::slices_right
+              : second_        ? Word::slices_left
+                               : Word::slices_burr));
 }
 
 void Watch::ask_beside() {
@@ -406,8 +466,16 @@ void Watch::key(const SDL_Keysym& pressed) {
       picture_ = true;
       break;
     default:
+      telling_key(pressed.sym);
       break;
   }
+}
+
+// The keys for films, the comparison and slices.
+void Watch::telling_key(SDL_Keycode sym) {
+  if (sym == SDLK_i || sym == SDLK_o) film_here(sym == SDLK_i);
+  if (sym == SDLK_c) next_comparison();
+  if (sym == SDLK_v) next_slices();
 }
 
 void Watch::go(double t) { now_.t = std::clamp(t, 0.0, seconds()); }
@@ -422,6 +490,18 @@ void Watch::play(bool playing) {
 void Watch::change_pace(int by) {
   const auto at = std::find(std::begin(kPaces), std::end(kPaces), now_.pace) - std::begin(kPaces);
   now_.pace = kPaces[std::clamp<std::ptrdiff_t>(at + by, 0, std::ssize(kPaces) - 1)];
+}
+
+// The film of the first recording begins or ends at this moment. A mark that the other one has passed
+// leaves: the part is then as long as possible. The same moment again: the mark leaves.
+void Watch::film_here(bool begins) {
+  const double end = first_->line().seconds, t = std::min(now_.t, end);
+  double &mine = begins ? now_.film_from : now_.film_until,
+         &other = begins ? now_.film_until : now_.film_from;
+  mine = mine == t ? (begins ? 0 : end) : t;
+  if (now_.film_from >= now_.film_until) other = begins ? end : 0;
+  if (now_.film_from >= now_.film_until) mine = begins ? 0 : end;
+  note(say(Word::film_part, clock_of(now_.film_from), clock_of(now_.film_until)));
 }
 
 void Watch::turn_view(double right, double up, bool shift) {
@@ -508,12 +588,16 @@ void Watch::panels() {
   if (panels_) {
     TimelineState s;
     s.first = moment_of(*first_, 0);
+    s.first.facts = facts_ ? facts_->facts() : nullptr;
     if (second_) s.second = moment_of(*second_, now_.shift);
+    if (comparison_) s.second.facts = comparison_->right();
     s.seconds = seconds();
     s.t = now_.t;
     s.playing = now_.playing;
     s.behind = now_.behind;
     s.pace = now_.pace;
+    s.film_from = now_.film_from;
+    s.film_until = now_.film_until;
     if (const edit::Mirror now = tick::mirror_of(first_->tool()); now.on() && !second_)
       draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
     s.note = note_.empty() ? export_->progress() : note_;
@@ -522,11 +606,21 @@ void Watch::panels() {
                 : first_->trouble().empty() && second_ ? second_->trouble()
                                                        : first_->trouble();
     if (second_) titles();
+    const float u = ui.unit();
+    if (comparison_ && compare_ != Compare::none &&
+        comparison_->draw(ui, 12 * u, 56 * u, s.first.facts, compare_ == Compare::colours))
+      compare_ = compare_ == Compare::colours ? Compare::table : Compare::colours;
+    if (now_.slices != 0) {
+      first_->slices().write_names(scene_, ui);
+      if (second_) second_->slices().write_names(second_->scene(), ui, std::floor(ui.width() / 2));
+    }
     const TimelineDone done = draw_timeline(ui, s);
     scrubbing_ = done.scrubbed.has_value();
     if (done.scrubbed) go(*done.scrubbed);
     if (done.play) play(!now_.playing);
     if (done.pace != 0) change_pace(done.pace);
+    if (done.film_from) film_here(true);
+    if (done.film_until) film_here(false);
   }
   if (help_) help_ = draw_replay_help(ui);
   if (export_->shown()) export_->draw();

@@ -7,6 +7,7 @@
 #include "burr/tick/mirror_plane.h"
 #include "burr/workshop/work_view.h"
 #include "window/mill/mirror_mode.h"
+#include "window/replay/difference.h"
 
 namespace burr::app {
 namespace {
@@ -18,9 +19,12 @@ constexpr auto kPatience = std::chrono::milliseconds(150);  // before "..." is s
 ReplayView::ReplayView(Recorded& recorded, bool software)
     : recorded_(recorded),
       colours_(recorded.scene.tissue_colours),
+      slices_(*recorded.bone),
+      plain_(*recorded.bone),
       live_(*recorded.bone, *recorded.worker, recorded.scene, software),
       playback_(recorded) {
   scene().scale_bar = false;
+  difference_colours_ = Difference::add_colours(scene().tissue_colours);
 }
 
 ReplayView::~ReplayView() {
@@ -33,10 +37,12 @@ void ReplayView::want(double t_s) {
   const double t = std::clamp(t_s, 0.0, line().seconds);
   if (t == wanted_) return;
   playback_.want(wanted_ = t);
+  settled_ = 0;
 }
 
 void ReplayView::look(bool effects, bool playing) {
   if (playback_.take(shown_)) {
+    settled_ = 0;
     if (effects) live_.see(shown_.changes);
     if (shown_.trouble.empty()) {
       workshop::put_tool(scene(), shown_.row, true);
@@ -57,6 +63,7 @@ void ReplayView::look(bool effects, bool playing) {
   // count
   const bool whole = !playback_.behind() && recorded_.worker->waiting() == 0;
   const auto now = std::chrono::steady_clock::now();
+  settled_ = whole && shown_.t == wanted_ ? settled_ + 1 : 0;
   if (whole) in_time_ = now;
   behind_ = !whole && now - in_time_ > kPatience;
   live_.update();
@@ -64,6 +71,7 @@ void ReplayView::look(bool effects, bool playing) {
 
 void ReplayView::show_labels(bool shown) {
   scene().tissue_colours = shown ? colours_ : render::as_bone(colours_);
+  difference_colours_ = Difference::add_colours(scene().tissue_colours);
 }
 
 tool::ToolState ReplayView::tool() const {

@@ -16,6 +16,7 @@
 
 #include "burr/tool/state.h"
 #include "burr/workshop/live_surface.h"
+#include "window/mill/slices.h"
 #include "window/replay/playback.h"
 
 namespace burr::app {
@@ -35,6 +36,19 @@ class ReplayView {
   void look(bool effects, bool playing);
   void drawn(double took_s, double redrawn) { live_.drawn(took_s, redrawn); }
   void show_labels(bool shown);
+  void look_plain() {
+    live_.look_plain();
+  }  // without the traces of milling, until there are new ones
+
+  // Slices of this bone, and a slicer without colours for others; nothing is drawn until they are used.
+  [[nodiscard]] Slices& slices() { return slices_; }
+  [[nodiscard]] render::Slicer& plain_slicer() { return plain_; }
+  // The scene's tissue_colours end with those of difference.h; false: too many tissues.
+  [[nodiscard]] bool has_difference_colours() const { return difference_colours_; }
+  // Bone and surface are those of the moment that was asked for, and nobody changes them before the
+  // next want().
+  [[nodiscard]] bool settled() const { return settled_ > kSettled; }
+  [[nodiscard]] math::Vec3 place() const { return shown_.row.contact.proxy; }  // of the burr
 
   [[nodiscard]] render::Scene& scene() { return recorded_.scene; }
   [[nodiscard]] const Recorded& recorded() const { return recorded_; }
@@ -49,8 +63,14 @@ class ReplayView {
   [[nodiscard]] const std::string& trouble() const { return trouble_; }  // "": none
 
  private:
+  static constexpr int kSettled = 3;  // pictures without anything new
+
   Recorded& recorded_;
   std::vector<render::Colour> colours_;
+  bool difference_colours_ = false;
+  Slices slices_;         // with its watcher before the thread that writes the bone
+  render::Slicer plain_;  // the same
+  int settled_ = 0;
   workshop::LiveSurface live_;
   Playback::Shown shown_;
   double wanted_ = -1, force_ = 0, removed_ = 0;

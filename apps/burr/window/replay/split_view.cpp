@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
+#include <vector>
 
 namespace burr::app {
 
@@ -38,7 +39,15 @@ Status SplitView::half(Half& half, const render::Scene& scene, render::Inset& in
   half.redrawn = half.renderer->figures().redrawn;
   const bool other_size = inset.image == nullptr || inset.image->width != inset.width ||
                           inset.image->height != inset.height;
-  if (half.redrawn > 0 || other_size)
+  // slices over the scene change without it
+  std::vector<render::Inset> slices = scene.insets;
+  const bool same_slices =
+      std::equal(slices.begin(), slices.end(), half.slices.begin(), half.slices.end(),
+                 [](const render::Inset& a, const render::Inset& b) {
+                   return a.image == b.image && a.x == b.x;
+                 });
+  half.slices = std::move(slices);
+  if (half.redrawn > 0 || other_size || !same_slices)
     inset.image = std::make_shared<render::Image>(half.renderer->shown());
   half.took_s = std::chrono::duration<double>(Clock::now() - start).count();
   return fine();

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "burr/base/result.h"
 #include "burr/render/renderer.h"
@@ -28,6 +29,7 @@ class SplitView {
   struct Half {
     std::unique_ptr<render::Renderer> renderer;
     double took_s = 0, redrawn = 0;
+    std::vector<render::Inset> slices;  // of the last picture
   };
   Status half(Half& half, const render::Scene& scene, render::Inset& inset) const;
 

@@ -16,12 +16,6 @@ using Letter = Ui::Letter;
 
 constexpr float kMargin = 10, kHigh = 164, kPad = 16;  // [points]
 
-// "1:04.2"
-std::string clock_of(double t) {
-  const double tenths = std::floor(10 * std::max(0.0, t) + 1e-6);
-  return fmt::format("{}.{}", minutes(tenths / 10), static_cast<long>(tenths) % 10);
-}
-
 // the letter of the key that gives this command while milling
 std::string letter_of(const tick::Command& command) {
   switch (command.kind) {
@@ -76,6 +70,7 @@ bool button(const char* id, ImVec2 p, ImVec2 size, float round) {
 }
 
 constexpr float kCurve = 62, kBar = 10;  // [points]
+constexpr double kShownDistance = 5e-3;  // at the top of the curve of distances [m]
 
 // Draws the force as a curve, strokes as bars below it, and commands as marks with the letter of
 // their key. The clock may begin before the recording and end after it.
@@ -89,6 +84,7 @@ class Line {
   Line(const Ui& ui, const TimelineMoment& moment, double whole, const Place& place)
       : ui_(ui),
         line_(*moment.line),
+        facts_(moment.facts != nullptr && moment.facts->spares ? moment.facts : nullptr),
         from_(moment.from),
         whole_(whole),
         u_(ui.unit()),
@@ -154,6 +150,48 @@ class Line {
     }
   }
 
+  void all() const {
+    curve();
+    strokes();
+    events();
+    distance();
+  }
+
+  // Draws the distance to what is to be spared as a line, the floor being 0, and marks violations.
+  void distance() const {
+    if (facts_ == nullptr) return;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float floor = y_ + curve_ * u_, high = (curve_ - 2) * u_;
+    std::optional<float> before;  // none: too far to be shown
+    for (float px = 0; px < w_; px += 1) {
+      const double from = clock_at(x_ + px) - from_, to = clock_at(x_ + px + 0.999F) - from_;
+      if (to < 0 || from > facts_->seconds) continue;
+      const Facts::Part near = facts_->nearest_in(std::max(0.0, from), to);
+      const auto share = static_cast<double>(near.distance) / kShownDistance;
+      if (!(share < 1)) {
+        before.reset();
+        continue;
+      }
+      const float top = floor - high * static_cast<float>(std::max(0.0, share));
+      const float last = before.value_or(top), thick = std::max(1.0F, 1.5F * u_);
+      draw.AddRectFilled({x_ + px, std::min(last, top) - thick / 2},
+                         {x_ + px + 1, std::max(last, top) + thick / 2}, ink::kGood);
+      before = top;
+    }
+    for (const Violation& hurt : facts_->violations) {
+      const float left = at(hurt.from), right = std::max(at(hurt.until), left + 2 * u_);
+      draw.AddRectFilled({left, floor - 6 * u_}, {right, floor}, ink::kBad);
+      const float middle = (left + right) / 2;
+      draw.AddTriangleFilled({middle - 5 * u_, floor - 6 * u_}, {middle + 5 * u_, floor - 6 * u_},
+                             {middle, floor - 14 * u_}, ink::kBad);
+    }
+    const std::string told = say(Word::replay_nearest, 1e3 * kShownDistance);
+    const float wide = ui_.width_of(Letter::small, told) + 8 * u_;
+    draw.AddRectFilled({x_ + w_ - wide, y_}, {x_ + w_, y_ + ui_.height_of(Letter::small) + 2 * u_},
+                       ink::kPanel, 3 * u_);
+    ui_.write(x_ + w_ - 4 * u_, y_ + 1 * u_, Letter::small, ink::kGood, told, 1);
+  }
+
   // labels at round times below, as many as fit
   void scale() const {
     if (!(whole_ > 0)) return;
@@ -170,6 +208,28 @@ class Line {
       const float wide = ui_.width_of(Letter::small, text);
       ui_.write(std::clamp(px - wide / 2, x_, x_ + w_ - wide), bottom() + 4 * u_, Letter::small,
                 ink::kDim, text);
+    }
+  }
+
+  // Darkens what a film leaves out, and brackets what it shows. Nothing if it shows all.
+  void film(double from, double until, float floor) const {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float top = y_ - 2 * u_, left = at_clock(from), right = at_clock(until);
+    const auto bracket = [&](float px, float way) {
+      const float wide = std::max(2.0F, 2 * u_);
+      draw.AddRectFilled({px - wide / 2, top}, {px + wide / 2, floor}, ink::kGood);
+      for (const float y : {top, floor - wide})
+        draw.AddRectFilled({std::min(px, px + 7 * way * u_), y},
+                           {std::max(px, px + 7 * way * u_), y + wide}, ink::kGood);
+    };
+    constexpr ImU32 kOut = ink::rgb(0, 0, 0, 130);
+    if (from > 0) {
+      draw.AddRectFilled({x_, top}, {left, floor}, kOut);
+      bracket(left, 1);
+    }
+    if (until < whole_) {
+      draw.AddRectFilled({right, top}, {x_ + w_, floor}, kOut);
+      bracket(right, -1);
     }
   }
 
@@ -191,6 +251,15 @@ class Line {
     std::string text = fmt::format("{}   {:.2f} N", clock_of(t),
                                    line_.force_in(t, t + whole_ / static_cast<double>(w_)));
     const double near = 4 * static_cast<double>(u_) / static_cast<double>(w_) * whole_;
+    if (facts_ != nullptr) {
+      const Facts::Part part = facts_->nearest_in(t, t + whole_ / static_cast<double>(w_));
+      if (part.distance < Facts::kFar)
+        text += say(Word::replay_distance, 1e3 * static_cast<double>(part.distance),
+                    facts_->name_of(part));
+      for (const Violation& hurt : facts_->violations)
+        if (t > hurt.from - near && t < hurt.until + near)
+          text += say(Word::replay_violation, hurt.name, 1e3 * hurt.deepest, clock_of(hurt.from));
+    }
     for (const record::Stroke& stroke : line_.strokes)
       if (t > stroke.begin_s - near && t < stroke.end_s + near) {
         text += say(Word::replay_stroke, clock_of(stroke.begin_s), clock_of(stroke.end_s));
@@ -209,6 +278,7 @@ class Line {
  private:
   const Ui& ui_;
   const record::Timeline& line_;
+  const Facts* facts_;  // nullptr: no distances
   double from_, whole_;
   float u_, x_, y_, w_;
   double peak_;
@@ -216,6 +286,11 @@ class Line {
 };
 
 }  // namespace
+
+std::string clock_of(double seconds) {
+  const double tenths = std::floor(10 * std::max(0.0, seconds) + 1e-6);
+  return fmt::format("{}.{}", minutes(tenths / 10), static_cast<long>(tenths) % 10);
+}
 
 std::string command_text(const record::TimelineEvent& event) {
   const tick::Command& command = event.command;
@@ -252,6 +327,25 @@ std::string command_text(const record::TimelineEvent& event) {
   }
 }
 
+namespace {
+
+// Two buttons: the film begins, ends at this moment.
+void draw_film_buttons(const Ui& ui, float x, float y, TimelineDone& done) {
+  const float u = ui.unit();
+  ui.write(x + 37 * u, y - 15 * u, Letter::small, ink::kDim, word(Word::export_film), 0.5F);
+  for (int n = 0; n < 2; ++n) {
+    const ImVec2 at = {x + 40 * static_cast<float>(n) * u, y};
+    const bool pressed = button(n == 0 ? "##filmfrom" : "##filmto", at, {34 * u, 26 * u}, 6 * u);
+    (n == 0 ? done.film_from : done.film_until) = pressed;
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s  ( %s )", word(n == 0 ? Word::film_from : Word::film_until),
+                        n == 0 ? "I" : "O");
+    ui.write(at.x + 17 * u, at.y + 4 * u, Letter::strong, ink::kText, n == 0 ? "[" : "]", 0.5F);
+  }
+}
+
+}  // namespace
+
 TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   TimelineDone done;
   const float u = ui.unit(), w = ui.width() - 2 * kMargin * u;
@@ -263,7 +357,7 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   const ImVec2 p = {x + kPad * u, y + 12 * u};
   done.play = button("##play", p, {44 * u, 38 * u}, 6 * u);
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s  [%s]", word(s.playing ? Word::replay_pause : Word::replay_play),
+    ImGui::SetTooltip("%s  ( %s )", word(s.playing ? Word::replay_pause : Word::replay_play),
                       word(Word::key_space));
   const ImVec2 c = {p.x + 22 * u, p.y + 19 * u};
   if (s.playing) {
@@ -308,10 +402,13 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
     if (button(n == 0 ? "##slower" : "##faster", at, {34 * u, 26 * u}, 6 * u))
       done.pace = n == 0 ? -1 : 1;
     if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s  [%s]", word(n == 0 ? Word::slower : Word::faster), n == 0 ? "," : ".");
+      ImGui::SetTooltip("%s  ( %s )", word(n == 0 ? Word::slower : Word::faster),
+                        n == 0 ? "," : ".");
     ui.write(at.x + 17 * u, at.y + 4 * u, Letter::strong, ink::kText, sign[n], 0.5F);
   }
   ui.write(right - 75 * u, y + 28 * u, Letter::strong, ink::kText, pace, 0.5F);
+
+  draw_film_buttons(ui, right - 244 * u, y + 25 * u, done);
 
   // both curves use the same scale
   const double peak = std::max(s.first.line->peak_force, two ? s.second.line->peak_force : 0.0);
@@ -330,14 +427,10 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (ImGui::IsItemActive()) done.scrubbed = line.clock_at(mouse.x);
   const bool over = ImGui::IsItemHovered();
-  const auto draw_all = [](const Line& each) {
-    each.curve();
-    each.strokes();
-    each.events();
-  };
-  draw_all(line);
-  if (second) draw_all(*second);
+  line.all();
+  if (second) second->all();
   lowest.scale();
+  line.film(s.film_from, s.film_until, line.bottom());
   line.head(s.t, lowest.bottom());
   if (over || done.scrubbed)
     (second && mouse.y > second->top() ? *second : line).told(line.clock_at(mouse.x));

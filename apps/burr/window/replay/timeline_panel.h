@@ -10,6 +10,7 @@
 
 #include "burr/record/timeline.h"
 #include "burr/tick/servo.h"
+#include "window/replay/facts.h"
 #include "window/shell/ui.h"
 
 namespace burr::app {
@@ -23,6 +24,7 @@ struct TimelineMoment {
   double speed = 0;                        // of the spindle  [rad/s]
   double burr_diameter = 0;                // [m]
   tick::ToolMode mode = tick::ToolMode::cut;
+  const Facts* facts = nullptr;  // distances and violations; nullptr: not measured
 };
 
 struct TimelineState {
@@ -31,17 +33,22 @@ struct TimelineState {
   double t = 0;
   bool playing = false, behind = false;
   double pace = 1;
-  std::string note;     // the last message
-  std::string warning;  // "" for none
+  double film_from = 0, film_until = 0;  // the part that a film shows  [s]
+  std::string note;                      // the last message
+  std::string warning;                   // "" for none
 };
 
 struct TimelineDone {
-  std::optional<double> scrubbed;  // to this moment; the mouse button is still down
-  bool play = false;               // the button play or pause was pressed
-  int pace = 0;                    // -1: slower, 1: faster
+  std::optional<double> scrubbed;              // to this moment; the mouse button is still down
+  bool play = false;                           // the button play or pause was pressed
+  int pace = 0;                                // -1: slower, 1: faster
+  bool film_from = false, film_until = false;  // the film begins, ends at this moment
 };
 
 [[nodiscard]] TimelineDone draw_timeline(Ui& ui, const TimelineState& state);
+
+// "1:04.2"
+[[nodiscard]] std::string clock_of(double seconds);
 
 // A command as text for the user: "burr of 4 mm", or that there was no room for it.
 [[nodiscard]] std::string command_text(const record::TimelineEvent& event);

@@ -77,7 +77,7 @@ bool draw_help(Ui& ui, const std::vector<HelpRow>& rows, bool& pads) {
 }
 
 bool draw_replay_help(Ui& ui) {
-  const float u = ui.unit(), w = 920 * u, h = 366 * u;
+  const float u = ui.unit(), w = 920 * u, h = 420 * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 60 * u);
   ui.page("##replayhelp", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Ui::Letter::large, ink::kText, word(Word::replay_help_title));
@@ -91,7 +91,8 @@ bool draw_replay_help(Ui& ui) {
          {"Home  End", Word::replay_help_ends},
          {",  .", Word::replay_help_pace},
          {"B", Word::replay_help_beside},
-         {bracket_keys(), Word::replay_help_shift}});
+         {bracket_keys(), Word::replay_help_shift},
+         {"C", Word::replay_help_compare}});
   block(ui, x + 480 * u, right, Word::help_view,
         {{fmt::format("{}, ↑  ↓", word(Word::key_left)), Word::help_turn},
          {word(Word::key_middle), Word::help_shift},
@@ -99,9 +100,11 @@ bool draw_replay_help(Ui& ui) {
          {"F", Word::help_first_view},
          {"L", Word::help_labels},
          {"T", Word::help_see_through},
+         {"V", Word::replay_help_slices},
          {"Tab", Word::help_hide},
          {"P", Word::help_picture},
          {"E", Word::film_help},
+         {"I  O", Word::film_marks},
          {"Esc  Q", Word::help_quit}});
   ImGui::SetCursorScreenPos({x + w - 100 * u, y + 20 * u});
   const bool close = ImGui::Button("OK  [F1]", {76 * u, 0});

@@ -97,10 +97,15 @@ bool HelperProcess::ended() {
 
 bool HelperProcess::fine() const { return WIFEXITED(status_) && WEXITSTATUS(status_) == 0; }
 
-std::string HelperProcess::complaint(const std::string& silent) const {
-  std::string line = said_;
+std::string HelperProcess::last_line() const {
+  std::string line = said_.substr(0, said_.rfind('\n') + 1);  // not half a line
   while (!line.empty() && line.back() == '\n') line.pop_back();
   if (const auto at = line.rfind('\n'); at != std::string::npos) line.erase(0, at + 1);
+  return line;
+}
+
+std::string HelperProcess::complaint(const std::string& silent) const {
+  std::string line = last_line();
   constexpr std::string_view kName = "burr: ";
   if (line.rfind(kName, 0) == 0) line.erase(0, kName.size());
   return line.empty() ? silent : line;

@@ -37,6 +37,8 @@ class HelperProcess {
   void stop() const;  // as Ctrl-C does
   [[nodiscard]] bool ended();
   [[nodiscard]] bool fine() const;  // call it after ended()
+  // The last line of its messages so far; "": none.
+  [[nodiscard]] std::string last_line() const;
   // The last line of the error messages, without the program's name; `silent` if there is none.
   [[nodiscard]] std::string complaint(const std::string& silent) const;
 

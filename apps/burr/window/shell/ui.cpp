@@ -282,10 +282,10 @@ void Ui::style() const {
   set(ImGuiCol_FrameBgActive, ink::kOver);
   set(ImGuiCol_Button, ink::kButton);
   set(ImGuiCol_ButtonHovered, ink::kOver);
-  set(ImGuiCol_ButtonActive, ink::rgb(86, 180, 233, 150));
+  set(ImGuiCol_ButtonActive, ink::rgb(86, 180, 233, 110));
   set(ImGuiCol_Header, ink::rgb(86, 180, 233, 70));
   set(ImGuiCol_HeaderHovered, ink::rgb(86, 180, 233, 100));
-  set(ImGuiCol_HeaderActive, ink::rgb(86, 180, 233, 140));
+  set(ImGuiCol_HeaderActive, ink::rgb(86, 180, 233, 115));
   set(ImGuiCol_CheckMark, ink::kAccent);
   set(ImGuiCol_SliderGrab, ink::kAccent);
   set(ImGuiCol_SliderGrabActive, ink::kText);

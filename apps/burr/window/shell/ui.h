@@ -8,7 +8,7 @@
 // design and depends on the display's scale. The position of the mouse comes from events only, so
 // that a test can act as a user by pushing events. The colours can be distinguished by colour-blind
 // people (Okabe and Ito), and a colour never carries a meaning alone: a word or a shape shows the
-// same. Thread: main, with the renderer's context; one at a time. Cost: drawing of panels only, a
+// same. Letters have the contrast of WCAG level AA (contrast.h, tests/window/contrast_test.cpp). Thread: main, with the renderer's context; one at a time. Cost: drawing of panels only, a
 // few thousand triangles.
 #pragma once
 
@@ -26,11 +26,11 @@ constexpr ImU32 rgb(unsigned r, unsigned g, unsigned b, unsigned a = 255) {
   return r | g << 8U | b << 16U | a << 24U;
 }
 inline constexpr ImU32 kText = rgb(238, 240, 242), kDim = rgb(176, 182, 189),
-                       kPanel = rgb(17, 19, 22, 214), kLine = rgb(255, 255, 255, 28),
+                       kPanel = rgb(17, 19, 22, 236), kLine = rgb(255, 255, 255, 28),
                        kTrough = rgb(255, 255, 255, 34), kButton = rgb(44, 49, 55, 235),
                        kOver = rgb(62, 70, 78, 245), kAccent = rgb(86, 180, 233),
                        kGood = rgb(0, 178, 133), kWarn = rgb(240, 180, 30),
-                       kBad = rgb(231, 110, 30);
+                       kBad = rgb(240, 125, 50);
 }  // namespace ink
 
 class Ui {
