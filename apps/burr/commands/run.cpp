@@ -32,7 +32,6 @@
 #include "commands/summary.h"
 #include "commands/volume_words.h"
 #include "commands/work.h"
-#include "report/questions.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/window.h"
 #include "window/review/review.h"
@@ -269,7 +268,7 @@ Result<Closed> mill_into_folder(Desk& desk, Ready& ready, const Options& options
   if (!done || !*stays) return *left;
   return review(desk, {.file = file,
                        .title = title_of(ready),
-                       .rubric = rubric_of(*ready.work_case),
+                       .rubric = rubric_for(*ready.work_case),
                        .volume = ready.volume,
                        .marks = ready.allowed.marks,
                        .seconds = window.seconds,

@@ -194,6 +194,8 @@ class Review {
 
 }  // namespace
 
+std::string rubric_for(const scenario::Case& work) { return rubric_of(work); }
+
 bool has_marks(const scenario::Case& work) { return !questions_on(work).empty(); }
 
 Result<bool> ask_self_marks(Desk& desk, const scenario::Case& work, record::Diary& diary,

@@ -21,6 +21,9 @@ namespace burr::app {
 // True: there is a rubric for this case, so the work on it can be marked.
 [[nodiscard]] bool has_marks(const scenario::Case& work);
 
+// What ReviewOptions::rubric needs for this case; empty: there is none.
+[[nodiscard]] std::string rubric_for(const scenario::Case& work);
+
 // The learner's own marks become events of the recording, at this tick. false: the user closed the
 // window. seconds: the page closes after this time; 0: never.
 [[nodiscard]] Result<bool> ask_self_marks(Desk& desk, const scenario::Case& work,

@@ -10,7 +10,6 @@
 #include "burr/render/picture.h"
 #include "commands/interrupt.h"
 #include "commands/work.h"
-#include "report/questions.h"
 #include "window/import/import_page.h"
 #include "window/mill/window.h"
 #include "window/replay/playback.h"
@@ -111,7 +110,7 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
   if (!desk.lost || autosave->kept_file().empty()) return Closed::page;
   return review(desk, {.file = autosave->kept_file(),
                        .title = title_of(ready),
-                       .rubric = rubric_of(*ready.work_case),
+                       .rubric = rubric_for(*ready.work_case),
                        .volume = options.volume,
                        .marks = ready.allowed.marks,
                        .repeats = true,
