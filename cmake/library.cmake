@@ -76,6 +76,9 @@ foreach(vendor crtk forcedimension haply openhaptics polhem)
   endif()
   burr_part(burr_device_${vendor} FROM device/${vendor}/ WITH ${needs})
 endforeach()
+# X11's headers define Status, None and other names as macros: what follows them in one unit would not compile
+set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/render/gl/x_errors.cpp ${PROJECT_SOURCE_DIR}/src/burr/render/gl/xr_binding.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
 burr_part(burr_workshop FROM workshop/)
