@@ -270,7 +270,8 @@ void Watch::draw_slices() {
 }
 
 void Watch::next_comparison() {
-  if (!comparison_) return note(word(Word::replay_drop_second));
+  if (!second_) return ask_beside();
+  if (!comparison_) return;
   compare_ = compare_ == Compare::none    ? Compare::table
              : compare_ == Compare::table ? Compare::colours
                                           : Compare::none;
