@@ -34,8 +34,8 @@ struct FilmPlan {
   [[nodiscard]] int frames() const;  // at least 1
   // The moment of a picture, 0 to frames() - 1  [s]
   [[nodiscard]] double moment(int frame) const { return from + frame / fps; }
-  // Size on disk [bytes]. An estimate from films of bones: 0.25 bit for each pixel of a .mp4, 5 bits
-  // for each of a PNG. Half and double of it were seen.
+  // Size on disk [bytes]. A rough estimate, not calibrated: 0.25 bit for each pixel of a .mp4, 5 bits
+  // for each of a PNG.
   [[nodiscard]] double bytes() const;
 };
 
