@@ -81,11 +81,12 @@ endforeach()
 add_executable(same_bits ${PROJECT_SOURCE_DIR}/tests/bits/same_bits.cpp)
 if(BURR_WARNINGS_ONLY)  # of the library only what the numbers depend on
   target_sources(same_bits PRIVATE ${BURR_SCENES})
-  target_include_directories(same_bits PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
+  target_include_directories(same_bits PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(same_bits PRIVATE burr_core burr_files burr_session burr_options fmt::fmt)
 else()
   target_link_libraries(same_bits PRIVATE burr burr_scenes burr_options fmt::fmt)
 endif()
+target_include_directories(same_bits PRIVATE ${PROJECT_SOURCE_DIR}/tests)  # support/folder.h
 
 # the same for burr_core alone, on other processors too (cmake/portable.cmake, scripts/checks/portable.sh)
 add_executable(portable_bits ${PROJECT_SOURCE_DIR}/tests/bits/portable_bits.cpp)
