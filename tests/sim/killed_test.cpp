@@ -261,7 +261,7 @@ TEST(Killed, AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit) {
       ::mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(memory, MAP_FAILED);
 
-  test::Folder folder;
+  burr::test::Folder folder;
   std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
   const std::string file = folder / "s.mcap";
   Tally paced, fast;

@@ -25,7 +25,7 @@ using math::Vec3;
 
 class Odd : public testing::Test {
  protected:
-  const test::Folder own_;
+  const burr::test::Folder own_;
   const std::filesystem::path folder = own_.path();
 };
 

@@ -311,7 +311,7 @@ TEST(Session, RefusesABurrSmallerThanTheVoxelsCanCarryWithTheCure) {
 
 class Replay : public testing::Test {
  protected:
-  const test::Folder folder_;
+  const burr::test::Folder folder_;
   const std::string file = folder_ / "s.mcap";
 
   void record(Session& session, double seconds, const std::function<void()>& between = {}) {

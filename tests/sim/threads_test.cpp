@@ -28,7 +28,7 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(WholeSession, EveryThreadAtOnceEndsWithOneTruth) {
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string file = folder / "s.mcap";
   auto bone = phantom::bone_from_distance(phantom::cube_grid(24e-3, 60), {}, phantom::slab(), 64);
   SessionSettings settings;

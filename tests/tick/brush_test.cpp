@@ -109,7 +109,7 @@ TEST(BackToTheOriginal, APressedBurrIsLiftedOutOfItsHoleAndLeavesTheOriginalByte
 
 class Recorded : public testing::Test {
  protected:
-  const test::Folder folder_;
+  const burr::test::Folder folder_;
   const std::string file = folder_ / "s.mcap";
   // Mills a pocket, then works on with these commands; recorded, replayed, compared.
   void expect_same(const std::vector<Command>& commands, const std::vector<Command>& later = {}) {

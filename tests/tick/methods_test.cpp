@@ -106,7 +106,7 @@ TEST(MethodsInASession, AreChangedInItsMiddleAndTheForceGrowsNoFasterThanEver) {
 
 TEST(MethodsInASession, TheRecordingKnowsAndSimulatesToTheSameBits) {
   NoProgress quiet;
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string file = folder / "s.mcap";
   sim::SessionSettings settings;
   settings.servo.touch = Method::thesis;

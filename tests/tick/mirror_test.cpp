@@ -173,7 +173,7 @@ TEST(MirrorMode, TheTickTakesNeitherMemoryNorLock) {
 }
 
 TEST(MirrorMode, ARecordingReplaysToTheBitAndHoldsEveryMoment) {
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string file = folder / "s.mcap";
   NoProgress quiet;
   sim::SessionSettings settings;

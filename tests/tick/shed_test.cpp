@@ -347,7 +347,7 @@ class HeavyHand final : public device::Device {
 };
 
 TEST(Overload, ASessionThatWasTooSlowForAWhileReplaysToTheBit) {
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string file = folder / "s.mcap";
   NoProgress quiet;
   sim::SessionSettings settings;
