@@ -134,10 +134,11 @@ TEST_F(Modes, LearningHasStepsAndALitTargetAndTheRecordingCountsBoth) {
                                  {"the steps", looks(3), [] { press(SDLK_a); }},
                                  {"lit", looks(3), [] { press(SDLK_a); }},
                                  {"dark", looks(3), [] { press(SDLK_j); }},
+                                 {"the second step", looks(3), [] { press(SDLK_j); }},
                                  {"all done", told(Word::steps_all_done), [] { press(SDLK_q); }}});
-  const std::vector<std::string> in_order = {"step_begun groove", "help_shown steps",
-                                             "help_shown target groove",
-                                             "help_hidden target groove", "step_done groove"};
+  const std::vector<std::string> in_order = {
+      "step_begun groove",         "help_shown steps", "help_shown target groove",
+      "help_hidden target groove", "step_done groove", "step_done second-groove"};
   auto at = learn.course.begin();
   for (const std::string& event : in_order) {
     at = std::find(at, learn.course.end(), event);

@@ -62,9 +62,13 @@ TEST_F(ReachWindow, TheMouseOpensTheMenuAndTakesAnItem) {
     click(static_cast<int>(kSideLeft + 100),
           static_cast<int>(kSideTop + 57 + 27 * static_cast<float>(n)));
   };
-  const double before = ready->scene.camera.distance;
+  double before = 0;
   mill_by(*ready,
-          {{"a picture", looks(5), [] { press(SDLK_F10); }},
+          {{"a picture", looks(5),
+            [&] {
+              before = ready->scene.camera.distance;
+              press(SDLK_F10);
+            }},
            // the fourth: the hand in a plane
            {"the menu", looks(3), [&] { item(3); }},
            {"told", [this] { return desk_->status_text.find("plane") != std::string::npos; },
