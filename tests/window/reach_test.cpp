@@ -97,7 +97,7 @@ TEST_F(NamesWindow, ANameIsPinnedUnderThePointerAndTheListOpens) {
        {"the list", looks(4),
         [&] {
           list = desk_->renderer().shown();
-          move_to(640, 40);
+          move_to(1040, 30);
         }},
        {"nothing there", looks(12), [] { press(SDLK_z); }},
        {"told",
