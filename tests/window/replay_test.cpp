@@ -367,19 +367,19 @@ TEST_F(TwoReplays, AreComparedInColourAndInSlicesOfTheSamePlace) {
           plain = desk_->renderer().shown();
           press(SDLK_c);
         }},
-       {"colours", [&, wait = 0]() mutable { return seen_.coloured && ++wait > 30; },
+       {"colours", [&, wait = 0]() mutable { return seen_.coloured && ++wait > 90; },
         [&] {
           coloured = desk_->renderer().shown();
           press(SDLK_v);
         }},
-       {"slices", [&, wait = 0]() mutable { return seen_.slices == 1 && ++wait > 30; },
+       {"slices", [&, wait = 0]() mutable { return seen_.slices == 1 && ++wait > 90; },
         [&] {
           sliced = desk_->renderer().shown();
           press(SDLK_v);
           press(SDLK_v);
           press(SDLK_c);
         }},
-       {"no colours", [&, wait = 0]() mutable { return !seen_.coloured && ++wait > 30; },
+       {"no colours", [&, wait = 0]() mutable { return !seen_.coloured && ++wait > 90; },
         [&] {
           again = desk_->renderer().shown();
           press(SDLK_ESCAPE);

@@ -33,7 +33,9 @@ class TwoEyes : public Window {
     (*renderer)->resize_offscreen(wide, high);
     render::Scene one = scene;
     one.quality = {};
-    one.quality.scale = scene.quality.scale;  // as few samples as a busy machine allows
+    // as few samples, and as plain, as a busy machine allows
+    one.quality.scale = scene.quality.scale;
+    one.quality.grain = one.quality.grain_still = scene.quality.grain_still;
     const auto made = [&](const render::Camera& camera) {
       one.camera = camera;
       EXPECT_TRUE((*renderer)->show(one));
