@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <random>
@@ -116,7 +117,9 @@ class Hover : public testing::TestWithParam<std::pair<const char*, double>> {};
 
 TEST_P(Hover, TheBurrFollowsInFrontOfWhatIsSeenAndNothingPushesIt) {
   const auto [name, voxel_mm] = GetParam();
-  const std::uint64_t seed = std::random_device()();
+  const char* given = std::getenv("BURR_SEED");
+  const std::uint64_t seed =
+      given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device()();
   SCOPED_TRACE(testing::Message() << name << ", seed " << seed);
   std::mt19937_64 random(seed);
   auto bench = Bench::of(name, voxel_mm);
@@ -192,7 +195,9 @@ TEST(HoverHand, InAHoleAsWideAsItselfTheBurrStaysWhenItIsLifted) {
 }
 
 TEST(HoverHand, ASessionOfMovesPressesAndUndoReplaysToTheBit) {
-  const std::uint64_t seed = std::random_device()();
+  const char* given = std::getenv("BURR_SEED");
+  const std::uint64_t seed =
+      given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device()();
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   std::mt19937_64 random(seed);
   auto bench = Bench::of("jaw", 1.0);
