@@ -387,7 +387,7 @@ TEST_F(TwoReplays, AreComparedInColourAndInSlicesOfTheSamePlace) {
   const auto left = painted(coloured, kLeftOnly), right = painted(coloured, kRightOnly);
   const auto none = painted(plain, kLeftOnly);
   // what only the left one cut: the wall of its pocket, and the bone that the right one still has
-  EXPECT_GT(left.first, none.first + 50) << "the burr hides most of it";
+  EXPECT_GT(left.first, none.first + 50) << "the wall of its pocket";
   EXPECT_GT(left.second, none.second + 200);
   EXPECT_LT(painted(again, kLeftOnly).first, none.first + 50);
   EXPECT_GT(painted(sliced, kLeftOnly).first, left.first + 200) << "the slices are filled";

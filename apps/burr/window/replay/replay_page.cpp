@@ -253,7 +253,11 @@ void Watch::tell() {
   }
   draw_slices();
   now_.measured = first != nullptr && (!comparison_ || comparison_->right() != nullptr);
-  now_.coloured = comparison_ && comparison_->coloured();
+  const bool coloured = comparison_ && comparison_->coloured();
+  if (coloured == std::exchange(now_.coloured, coloured)) return;
+  // the tools would hide what they cut
+  first_->scene().burr.visible = !coloured;
+  if (second_) second_->scene().burr.visible = !coloured;
 }
 
 // Slices of both at the same place, in a column at the right of each half.
