@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "burr/math/rotation.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/render/bone_scene.h"
