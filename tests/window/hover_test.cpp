@@ -78,7 +78,7 @@ struct Bench {
     const auto in_bone = [&bone](const Vec3& p) {
       return volume::sample(bone, bone.grid().grid_from_world(p)) > 0.5;
     };
-    const double reach = 1.15 * ready.scene.burr.radius + bone.grid().voxel;
+    const double reach = ready.scene.burr.radius + 3 * bone.grid().voxel;
     for (double far = 0; far < 0.4; far += bone.grid().voxel / 2) {
       const Vec3 p = eye.origin + far * eye.direction;
       if (in_bone(p)) return false;
