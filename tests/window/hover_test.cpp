@@ -70,27 +70,6 @@ struct Bench {
         return true;
     return false;
   }
-
-  // Whether the burr, and a little air, fits anywhere on the ray in front of the bone, by the voxels.
-  // An eye that the view has put into a hollow narrower than the burr sees no such place.
-  [[nodiscard]] bool has_room(const render::Ray& eye) const {
-    const volume::Bone& bone = ready.session->bone();
-    const auto in_bone = [&bone](const Vec3& p) {
-      return volume::sample(bone, bone.grid().grid_from_world(p)) > 0.5;
-    };
-    const double reach = ready.scene.burr.radius + 3 * bone.grid().voxel;
-    for (double far = 0; far < 0.4; far += bone.grid().voxel / 2) {
-      const Vec3 p = eye.origin + far * eye.direction;
-      if (in_bone(p)) return false;
-      bool free = true;
-      for (int i = 0; free && i < 27; ++i) {
-        const Vec3 way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-        if (i != 13) free = !in_bone(p + reach * way.normalized());
-      }
-      if (free) return true;
-    }
-    return false;
-  }
 };
 
 struct Found {
@@ -110,7 +89,8 @@ Found wander(Bench& bench, int moves, std::mt19937_64& random) {
   Vec3 before = Vec3::Zero();
   for (int move = 0; move < moves; ++move) {
     if (move % 50 == 0) {
-      camera.distance = view * (0.25 + 0.5 * at(random));
+      // nearer, the eye may be in the bone, where there is no place for the burr in front of it
+      camera.distance = view * (0.4 + 0.4 * at(random));
       render::orbit(camera, at(random) - 0.5, at(random) - 0.5);
     }
     const double from_x = x, from_y = y, to_x = kWidth * at(random), to_y = kHeight * at(random);
@@ -128,8 +108,7 @@ Found wander(Bench& bench, int moves, std::mt19937_64& random) {
       }
       const render::Ray eye = render::ray_through(camera, x, y, kWidth, kHeight);
       if (render::pick(bench.ready.scene, eye)) ++found.on_bone;
-      if ((bench.burr() - eye.origin).cross(eye.direction).norm() > 1e-9 && bench.has_room(eye))
-        ++found.astray;
+      if ((bench.burr() - eye.origin).cross(eye.direction).norm() > 1e-9) ++found.astray;
     }
   }
   return found;
