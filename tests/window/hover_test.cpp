@@ -90,7 +90,7 @@ Found wander(Bench& bench, int moves, std::mt19937_64& random) {
   for (int move = 0; move < moves; ++move) {
     if (move % 50 == 0) {
       // nearer, the eye may be in the bone, where there is no place for the burr in front of it
-      camera.distance = view * (0.4 + 0.4 * at(random));
+      camera.distance = view * (0.4 + 0.2 * at(random));
       render::orbit(camera, at(random) - 0.5, at(random) - 0.5);
     }
     const double from_x = x, from_y = y, to_x = kWidth * at(random), to_y = kHeight * at(random);
@@ -129,7 +129,7 @@ TEST_P(Hover, TheBurrFollowsInFrontOfWhatIsSeenAndNothingPushesIt) {
   EXPECT_EQ(found.behind, 0) << "of " << found.ticks << " ticks";
   EXPECT_EQ(found.astray, 0) << "of " << found.pictures << " pictures it was not at the pointer";
   EXPECT_LT(found.most_force, 0.05);
-  EXPECT_GT(found.on_bone, found.pictures / 5) << "too little bone in the picture to test anything";
+  EXPECT_GT(found.on_bone, found.pictures / 10) << "too little bone in the picture to test anything";
 }
 INSTANTIATE_TEST_SUITE_P(Bones, Hover,
                          testing::Values(std::pair{"temporal-bone", 1.0}, std::pair{"jaw", 1.0},
