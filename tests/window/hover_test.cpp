@@ -129,7 +129,8 @@ TEST_P(Hover, TheBurrFollowsInFrontOfWhatIsSeenAndNothingPushesIt) {
   EXPECT_EQ(found.behind, 0) << "of " << found.ticks << " ticks";
   EXPECT_EQ(found.astray, 0) << "of " << found.pictures << " pictures it was not at the pointer";
   EXPECT_LT(found.most_force, 0.05);
-  EXPECT_GT(found.on_bone, found.pictures / 10) << "too little bone in the picture to test anything";
+  EXPECT_GT(found.on_bone, found.pictures / 10)
+      << "too little bone in the picture to test anything";
 }
 INSTANTIATE_TEST_SUITE_P(Bones, Hover,
                          testing::Values(std::pair{"temporal-bone", 1.0}, std::pair{"jaw", 1.0},
