@@ -29,7 +29,7 @@ using Near = std::array<float, static_cast<std::size_t>(kEdge* kEdge* kEdge)>;
 
 // Bricks that hold the label, and their neighbours: only there the filter gives anything.
 std::vector<volume::BrickIndex> bricks_at(const volume::Bone& bone, volume::TissueId tissue) {
-  const Ijk all = bone.bricks();
+  const Ijk& all = bone.bricks();
   std::vector<std::uint8_t> near(static_cast<std::size_t>(bone.brick_count()));
   for (volume::BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {
     const volume::TissueId* labels = bone.brick_tissue(brick);
