@@ -70,6 +70,17 @@ struct Bench {
         return true;
     return false;
   }
+  // Whether the burr, with some air, fits around this point, by the voxels.
+  [[nodiscard]] bool has_room_at(const Vec3& p) const {
+    const volume::Bone& bone = ready.session->bone();
+    const double reach = ready.session->servo().burr_radius() + 3 * bone.grid().voxel;
+    for (int i = 0; i < 27; ++i) {
+      const Vec3 way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      const Vec3 at = i == 13 ? p : Vec3(p + reach * way.normalized());
+      if (volume::sample(bone, bone.grid().grid_from_world(at)) > 0.5) return false;
+    }
+    return true;
+  }
 };
 
 struct Found {
@@ -89,9 +100,10 @@ Found wander(Bench& bench, int moves, std::mt19937_64& random) {
   Vec3 before = Vec3::Zero();
   for (int move = 0; move < moves; ++move) {
     if (move % 50 == 0) {
-      // nearer, the eye may be in the bone, where there is no place for the burr in front of it
-      camera.distance = view * (0.4 + 0.2 * at(random));
+      camera.distance = view * (0.25 + 0.5 * at(random));
       render::orbit(camera, at(random) - 0.5, at(random) - 0.5);
+      // an eye in the bone sees no place for the burr in front of it
+      while (!bench.has_room_at(camera.eye())) camera.distance *= 1.05;
     }
     const double from_x = x, from_y = y, to_x = kWidth * at(random), to_y = kHeight * at(random);
     const int pictures = static_cast<int>(std::exp(at(random) * at(random) * std::log(31.0)));
@@ -129,8 +141,7 @@ TEST_P(Hover, TheBurrFollowsInFrontOfWhatIsSeenAndNothingPushesIt) {
   EXPECT_EQ(found.behind, 0) << "of " << found.ticks << " ticks";
   EXPECT_EQ(found.astray, 0) << "of " << found.pictures << " pictures it was not at the pointer";
   EXPECT_LT(found.most_force, 0.05);
-  EXPECT_GT(found.on_bone, found.pictures / 10)
-      << "too little bone in the picture to test anything";
+  EXPECT_GT(found.on_bone, found.pictures / 5) << "too little bone in the picture to test anything";
 }
 INSTANTIATE_TEST_SUITE_P(Bones, Hover,
                          testing::Values(std::pair{"temporal-bone", 1.0}, std::pair{"jaw", 1.0},

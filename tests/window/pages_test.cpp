@@ -118,7 +118,7 @@ TEST_F(Window, TabHidesThePanelsAndShowsThemAgain) {
   EXPECT_GT(differ(with, without, 100, 650, 1180, 712), 10'000);
   EXPECT_GT(differ(with, without, 10, 60, 90, 560), 5000);
   EXPECT_GT(differ(with, without, 1080, 20, 1270, 600), 10'000);
-  EXPECT_LT(differ(with, without, 700, 20, 940, 200), 200);
+  EXPECT_LT(differ(with, without, 700, 20, 940, 200), 50);
   EXPECT_GT(differ(without, again, 100, 650, 1180, 712), 10'000);
 }
 

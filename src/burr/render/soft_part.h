@@ -1,4 +1,4 @@
-// render/soft_part.h - how the two parts of a soft structure are told apart.
+// render/soft_part.h - the mark that separates the two parts of a soft structure.
 //
 // A structure is in two parts, which meet edge on edge: what bone covers, or covered before it was
 // cut, and the rest (of dura, the face towards the brain), which is drawn only where bone is

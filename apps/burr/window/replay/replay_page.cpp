@@ -243,7 +243,7 @@ void Watch::close_beside() {
   now_.shift = 0;
 }
 
-// What is told of the recordings: distances, the table, the colours, slices.
+// Shows distances, the table of losses, the colours of the difference, and slices.
 void Watch::tell() {
   if (facts_) facts_->step();
   const Facts* first = facts_ ? facts_->facts() : nullptr;
