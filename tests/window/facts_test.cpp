@@ -1,4 +1,4 @@
-// What is told of two recordings beside each other: distances, violations, losses, and where they cut
+// What the window shows of two recordings beside each other: distances, violations, losses, and where they cut
 // differently, against bones and ways of known shape.
 #include "window/replay/facts.h"
 

@@ -1,4 +1,4 @@
-// Films on disk: what was said before is what another program, ffprobe, reads back.
+// Films on disk: ffprobe reads back the count, size and length that burr printed before the work.
 #include "commands/film_file.h"
 
 #include <gtest/gtest.h>

@@ -30,7 +30,7 @@ struct Watched {
   bool beside = false;
   double shown_beside = 0, removed_beside = 0, shift = 0;  // [s], [m^3], [s]
   double film_from = 0, film_until = 0;                    // the part that a film shows  [s]
-  // what is told of both: measured; the difference is on the bones; slices: 0 none, through the burr
+  // shown of both recordings: measured: the table is complete; coloured: the difference is on the bones; slices: 0 none, through the burr
   // of the 1 left, 2 right recording
   bool measured = false, coloured = false;
   int slices = 0;

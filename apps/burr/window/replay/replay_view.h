@@ -45,7 +45,7 @@ class ReplayView {
   [[nodiscard]] render::Slicer& plain_slicer() { return plain_; }
   // The scene's tissue_colours end with those of difference.h; false: too many tissues.
   [[nodiscard]] bool has_difference_colours() const { return difference_colours_; }
-  // Bone and surface are those of the moment that was asked for, and nobody changes them before the
+  // Bone and surface are those of the moment given to want(), and nobody changes them before the
   // next want().
   [[nodiscard]] bool settled() const { return settled_ > kSettled; }
   [[nodiscard]] math::Vec3 place() const { return shown_.row.contact.proxy; }  // of the burr
