@@ -30,8 +30,8 @@ struct Watched {
   bool beside = false;
   double shown_beside = 0, removed_beside = 0, shift = 0;  // [s], [m^3], [s]
   double film_from = 0, film_until = 0;                    // the part that a film shows  [s]
-  // shown of both recordings: measured: the table is complete; coloured: the difference is on the bones; slices: 0 none, through the burr
-  // of the 1 left, 2 right recording
+  // measured: the table of losses is complete; coloured: the bones show the difference;
+  // slices: 0 none, through the burr of the 1 left, 2 right recording
   bool measured = false, coloured = false;
   int slices = 0;
   std::string note;  // the last message
