@@ -1,0 +1,261 @@
+// tool/shape_formulas.h - the distances of shape.h, for one number at a time and for sixteen.
+//
+// The template argument M says with what to compute: M::Number (double, or rt::lanes::Floats), M::Real
+// (double or float) and M::square_root(Number&). Branches are choices between two values, so that
+// lanes can follow both; sums have a written order, so every lane gives the same bits on every
+// instruction set.
+//
+// Everything has internal linkage: a kernel's translation unit compiles its own copy for its own
+// instruction set. Vectors go by reference, as rt/lanes.h asks.
+//
+// Round kinds are solved in the half plane (r, z), r = |(x, y)|, then turned back about z.
+// Sources: elementary geometry; each formula is checked against dense samples of the surface in
+// tests/tool/shape_test.cpp.
+#pragma once
+
+#include <cmath>
+
+#include "burr/tool/shape_kind.h"
+
+namespace burr::tool {
+namespace {
+
+// The sizes of a shape in the number type of the caller, and what follows from them once.
+template <class Real>
+struct Sizes {
+  Real a = 0, b = 0, c = 0, rounding = 0;
+  Real e0 = 0, e1 = 0, length = 0;  // frustum, wedge: unit along the slant side (r, z), its length
+  Real offset = 0, arc = 0;         // vesica: of the arc's centre from the axis, its radius
+};
+
+template <class Real>
+[[maybe_unused]] Sizes<Real> sizes_of(const Shape& s) noexcept {
+  Sizes<double> d;
+  if (s.kind == ShapeKind::frustum || s.kind == ShapeKind::wedge) {
+    const double across = s.kind == ShapeKind::frustum ? s.b - s.a : s.a;
+    const double along = s.kind == ShapeKind::frustum ? 2 * s.c : s.c;
+    d.length = std::sqrt(across * across + along * along);
+    d.e0 = across / d.length;
+    d.e1 = along / d.length;
+  }
+  if (s.kind == ShapeKind::vesica) {
+    d.offset = (s.c * s.c - s.a * s.a) / (2 * s.a);
+    d.arc = d.offset + s.a;
+  }
+  return {static_cast<Real>(s.a),        static_cast<Real>(s.b),      static_cast<Real>(s.c),
+          static_cast<Real>(s.rounding), static_cast<Real>(d.e0),     static_cast<Real>(d.e1),
+          static_cast<Real>(d.length),   static_cast<Real>(d.offset), static_cast<Real>(d.arc)};
+}
+
+// One number at a time. A kernel's own struct has Number = rt::lanes::Floats, Real = float.
+struct OneNumber {
+  using Number = double;
+  using Real = double;
+  static void square_root(double& v) noexcept { v = std::sqrt(v); }
+};
+template <class M>
+using Num = typename M::Number;
+template <class M>
+using Size = typename M::Real;
+
+// Distance and gradient at a place.
+template <class M>
+struct Field {
+  Num<M> phi = {}, x = {}, y = {}, z = {};
+};
+
+// In the half plane (r, z) or the plane (x, z) of a wedge.
+template <class M>
+struct Profile {
+  Num<M> d = {}, r = {}, z = {};
+};
+
+// A length is never below kTiny, so nothing is divided by zero; up to kNothing it counts as zero.
+template <class Real>
+inline constexpr Real kTiny = static_cast<Real>(1e-18);
+template <class Real>
+inline constexpr Real kNothing = static_cast<Real>(4e-18);
+
+template <class M>
+[[maybe_unused]] void length_of(const Num<M>& x, const Num<M>& y, Num<M>& length) noexcept {
+  length = x * x + y * y + kTiny<Size<M>> * kTiny<Size<M>>;
+  M::square_root(length);
+}
+
+// ---- profiles: signed distance to the core and its gradient
+
+template <class M>
+[[maybe_unused]] void from_place(const Num<M>& r, const Num<M>& z, Profile<M>& out) noexcept {
+  length_of<M>(r, z, out.d);
+  const auto apart = out.d > kNothing<Size<M>>;
+  out.r = apart ? r / out.d : Num<M>{} + static_cast<Size<M>>(1);
+  out.z = apart ? z / out.d : Num<M>{};
+}
+
+template <class M>
+[[maybe_unused]] void capsule(const Sizes<Size<M>>& s, const Num<M>& r, const Num<M>& z,
+                              Profile<M>& out) noexcept {
+  const Num<M> top = Num<M>{} + s.c;
+  Num<M> on = z > top ? top : z;
+  on = on < -top ? -top : on;
+  from_place<M>(r, z - on, out);
+}
+
+// Rectangle |r| <= half_r, |z| <= half_z; r >= 0.
+template <class M>
+[[maybe_unused]] void rectangle(const Size<M>& half_r, const Size<M>& half_z, const Num<M>& r,
+                                const Num<M>& z, Profile<M>& out) noexcept {
+  const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
+  const Num<M> side = z < zero ? -one : one;
+  const Num<M> dr = r - half_r, dz = z * side - half_z;
+  const Num<M> over_r = dr > zero ? dr : zero, over_z = dz > zero ? dz : zero;
+  Num<M> far;
+  length_of<M>(over_r, over_z, far);
+  const auto outside = far > kNothing<Size<M>>;
+  const auto radial = dr > dz;
+  const Num<M> deep = radial ? dr : dz;
+  const Num<M> ir = radial ? one : zero, iz = radial ? zero : side;
+  out.d = outside ? far : deep;
+  out.r = outside ? over_r / far : ir;
+  out.z = outside ? over_z * side / far : iz;
+}
+
+// A convex profile of a slant side from (r0, z0) on, and two flat ends: at `top` of half width
+// r_top, and at `bottom` of half width r_bottom. r >= 0.
+template <class M>
+struct Slant {
+  Size<M> r0, z0, top, r_top, bottom, r_bottom;
+};
+template <class M>
+[[maybe_unused]] void slanted(const Sizes<Size<M>>& s, const Slant<M>& body, const Num<M>& r,
+                              const Num<M>& z, Profile<M>& out) noexcept {
+  const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
+  const Num<M> fr = r - body.r0, fz = z - body.z0;
+  // the side's outward normal is (e1, -e0)
+  const Num<M> over_side = fr * s.e1 - fz * s.e0;
+  Num<M> t = fr * s.e0 + fz * s.e1;
+  t = t < zero ? zero : t;
+  t = t > zero + s.length ? zero + s.length : t;
+  Profile<M> side, end;
+  from_place<M>(fr - t * s.e0, fz - t * s.e1, side);
+  const Num<M> over_top = z - body.top, over_bottom = body.bottom - z;
+  const auto upper = over_top > over_bottom;
+  const Num<M> over_end = upper ? over_top : over_bottom;
+  const Num<M> level = upper ? zero + body.top : zero + body.bottom;
+  const Num<M> width = upper ? zero + body.r_top : zero + body.r_bottom;
+  from_place<M>(r < width ? zero : r - width, z - level, end);
+  const Num<M> worst = over_side > over_end ? over_side : over_end;
+  const auto outside = worst > kNothing<Size<M>>;
+  const auto to_side = side.d < end.d;
+  const auto slant_first = over_side > over_end;
+  const Num<M> up = upper ? one : -one;
+  const Num<M> ir = slant_first ? zero + s.e1 : zero, iz = slant_first ? zero - s.e0 : up;
+  const Num<M> od = to_side ? side.d : end.d, outside_r = to_side ? side.r : end.r,
+               outside_z = to_side ? side.z : end.z;
+  out.d = outside ? od : worst;
+  out.r = outside ? outside_r : ir;
+  out.z = outside ? outside_z : iz;
+}
+
+template <class M>
+[[maybe_unused]] void vesica(const Sizes<Size<M>>& s, const Num<M>& r, const Num<M>& z,
+                             Profile<M>& out) noexcept {
+  const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
+  const Num<M> side = z < zero ? -one : one;
+  const Num<M> beyond = z * side - s.c;
+  Profile<M> tip, arc;
+  from_place<M>(r, beyond * side, tip);
+  from_place<M>(r + s.offset, z, arc);
+  const auto at_tip = beyond * s.offset > r * s.c;
+  out.d = at_tip ? tip.d : arc.d - s.arc;
+  out.r = at_tip ? tip.r : arc.r;
+  out.z = at_tip ? tip.z : arc.z;
+}
+
+template <class M>
+[[maybe_unused]] void half_shell(const Sizes<Size<M>>& s, const Size<M>& rim, const Num<M>& r,
+                                 const Num<M>& z, Profile<M>& out) noexcept {
+  const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
+  Profile<M> edge, middle;
+  from_place<M>(r - rim, z - s.b, edge);
+  from_place<M>(r, z, middle);
+  const Num<M> off = middle.d - s.a;
+  const Num<M> way = off < zero ? -one : one;
+  const auto above = z * rim > r * s.b;
+  out.d = above ? edge.d : off * way;
+  out.r = above ? edge.r : middle.r * way;
+  out.z = above ? edge.z : middle.z * way;
+}
+
+// ---- the shapes
+
+// A box or a wedge: a profile across y, extruded to |y| <= half.
+template <class M>
+[[maybe_unused]] void extrude(const Profile<M>& across, const Num<M>& side_x, const Size<M>& half,
+                              const Num<M>& y, Field<M>& out) noexcept {
+  const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
+  const Num<M> side = y < zero ? -one : one;
+  const Num<M> dy = y * side - half;
+  const Num<M> over = across.d > zero ? across.d : zero, over_y = dy > zero ? dy : zero;
+  Num<M> far;
+  length_of<M>(over, over_y, far);
+  const auto outside = far > kNothing<Size<M>>;
+  const auto flat = across.d > dy;
+  const Num<M> in_profile = flat ? one : zero, in_y = flat ? zero : side;
+  const Num<M> p = outside ? over / far : in_profile;
+  const Num<M> deep = flat ? across.d : dy;
+  out.phi = outside ? far : deep;
+  out.x = p * across.r * side_x;
+  out.y = outside ? over_y * side / far : in_y;
+  out.z = p * across.z;
+}
+
+template <class M>
+[[maybe_unused]] void ball_field(const Sizes<Size<M>>& s, const Num<M>& x, const Num<M>& y,
+                                 const Num<M>& z, Field<M>& out) noexcept {
+  Num<M> far = x * x + y * y + z * z + kTiny<Size<M>> * kTiny<Size<M>>;
+  M::square_root(far);
+  const auto apart = far > kNothing<Size<M>>;
+  out.x = apart ? x / far : Num<M>{} + static_cast<Size<M>>(1);
+  out.y = apart ? y / far : Num<M>{};
+  out.z = apart ? z / far : Num<M>{};
+  out.phi = far - s.rounding;
+}
+
+template <class M>
+[[maybe_unused]] void field_of(ShapeKind kind, const Sizes<Size<M>>& s, const Num<M>& x,
+                               const Num<M>& y, const Num<M>& z, Field<M>& out) noexcept {
+  if (kind == ShapeKind::ball) {
+    ball_field<M>(s, x, y, z, out);
+    return;
+  }
+  const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
+  Profile<M> profile;
+  if (kind == ShapeKind::box || kind == ShapeKind::wedge) {
+    const Num<M> side = x < zero ? -one : one;
+    if (kind == ShapeKind::box)
+      rectangle<M>(s.a, s.c, x * side, z, profile);
+    else
+      slanted<M>(s, {0, 0, s.c, s.a, 0, 0}, x * side, z, profile);
+    extrude<M>(profile, side, s.b, y, out);
+    out.phi -= s.rounding;
+    return;
+  }
+  Num<M> r;
+  length_of<M>(x, y, r);
+  if (kind == ShapeKind::capsule) capsule<M>(s, r, z, profile);
+  if (kind == ShapeKind::cylinder) rectangle<M>(s.a, s.c, r, z, profile);
+  if (kind == ShapeKind::frustum) slanted<M>(s, {s.a, -s.c, s.c, s.b, -s.c, s.a}, r, z, profile);
+  if (kind == ShapeKind::vesica) vesica<M>(s, r, z, profile);
+  if (kind == ShapeKind::half_shell)
+    half_shell<M>(s, std::sqrt((s.a - s.b) * (s.a + s.b)), r, z, profile);
+  const auto off_axis = r > kNothing<Size<M>>;
+  const Num<M> cosine = off_axis ? x / r : one, sine = off_axis ? y / r : zero;
+  out.phi = profile.d - s.rounding;
+  out.x = profile.r * cosine;
+  out.y = profile.r * sine;
+  out.z = profile.z;
+}
+
+}  // namespace
+}  // namespace burr::tool

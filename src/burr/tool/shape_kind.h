@@ -1,0 +1,25 @@
+// tool/shape_kind.h - the sizes of a shape (shape.h), without any other header: kernels that are
+// compiled once per instruction set include it (rt/lanes.h says why).
+#pragma once
+
+namespace burr::tool {
+
+enum class ShapeKind {
+  ball,        // core: the origin
+  capsule,     // core: the segment |z| <= c
+  cylinder,    // core: radius a, |z| <= c; flat: a disc or a wheel
+  frustum,     // core: radius a at z = -c, b at z = +c
+  vesica,      // core: the arc through (a, 0) and the tips (0, +-c), turned about z; 0 < a < c
+  box,         // core: half sizes a, b, c
+  wedge,       // core: edge at z = 0 along y, faces to half thickness a at z = c; |y| <= b
+  half_shell,  // core: the sphere of radius a up to the height z = b, |b| < a; not convex
+};
+inline constexpr int kShapeKinds = 8;
+
+struct Shape {
+  ShapeKind kind = ShapeKind::ball;
+  double a = 0, b = 0, c = 0;  // as each kind says
+  double rounding = 0;         // >= 0
+};
+
+}  // namespace burr::tool
