@@ -1,0 +1,2 @@
+#define BURR_KERNEL avx512
+#include "burr/haptics/six/row_kernel.inc"

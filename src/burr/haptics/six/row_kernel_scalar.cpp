@@ -1,0 +1,2 @@
+#define BURR_KERNEL scalar
+#include "burr/haptics/six/row_kernel.inc"

@@ -1,0 +1,277 @@
+// The proxy of six unknowns against closed forms, and against the proxy of three unknowns.
+#include "burr/haptics/six/six_proxy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "burr/haptics/proxy.h"
+#include "burr/math/rotation.h"
+#include "burr/math/turn.h"
+#include "scene.h"
+#include "support/rt_guard.h"
+
+namespace burr::haptics {
+namespace {
+
+using math::Pose;
+using math::Quat;
+using math::Vec3;
+using test::Scene;
+using tool::Role;
+using tool::ShapeKind;
+
+constexpr double kMm = 1e-3;
+
+tool::Tool one_part(const tool::Shape& shape, const Pose& pose = {}) {
+  tool::Tool tool;
+  EXPECT_TRUE(tool::add_part(tool, {shape, pose, Role::cuts}));
+  return tool;
+}
+
+tool::Tool burr(double radius) {
+  tool::Burr head;
+  head.radius = radius;
+  return tool::burr_with_shaft(head);
+}
+
+Quat turn_about(const Vec3& axis, double angle) {
+  Quat q;
+  q.w() = std::cos(angle / 2);
+  q.vec() = std::sin(angle / 2) * axis.normalized();
+  return q;
+}
+
+SixTouch settle(SixProxy& proxy, const Pose& from, const Pose& to, int ticks = 200) {
+  SixTouch touch;
+  for (int n = 0; n <= ticks + 60; ++n) {
+    const double s = std::min(1.0, 1.0 * n / ticks);
+    const Vec3 way = math::rotation_vector(math::product(to.q, from.q.conjugate()));
+    touch =
+        proxy.step({from.p + s * (to.p - from.p),
+                    math::product(turn_about(way + Vec3(0, 0, 1e-15), s * way.norm()), from.q)});
+  }
+  return touch;
+}
+
+// ---- the solver
+
+// A random set of rows: z is allowed, every push is above zero, z is where the pushes say, and every
+// row that pushes is met exactly: the conditions of Karush, Kuhn and Tucker, which only the nearest
+// allowed z meets.
+TEST(LeastTwist, MeetsTheConditionsOfTheNearestAllowedMove) {
+  constexpr unsigned kSeed = 31;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  std::mt19937 random(kSeed);
+  std::normal_distribution<double> any(0, 1);
+  const auto rows = std::make_unique<Rows>();
+  int most_active = 0;
+  for (int round = 0; round < 2000; ++round) {
+    rows->count = 1 + round % 60;
+    for (int j = 0; j < rows->count; ++j) {
+      const Vec3 n = Vec3(any(random), any(random), any(random)).normalized();
+      for (int k = 0; k < 3; ++k) {
+        rows->n[k][j] = static_cast<float>(n[k]);
+        rows->m[k][j] = static_cast<float>(any(random));
+      }
+      rows->gap[j] = static_cast<float>(0.3 * std::abs(any(random)));
+    }
+    Six wanted;
+    for (double& one : wanted) one = any(random);
+    const LeastTwist twist = least_twist(*rows, wanted, row_kernel().worst);
+    ASSERT_TRUE(twist.solved);
+    Six sum = wanted;
+    const auto at = [&](int j) {
+      double value = static_cast<double>(rows->gap[j]);
+      for (std::size_t k = 0; k < 3; ++k)
+        value += static_cast<double>(rows->n[k][j]) * twist.z[k] +
+                 static_cast<double>(rows->m[k][j]) * twist.z[k + 3];
+      return value;
+    };
+    for (int a = 0; a < twist.active; ++a) {
+      const int j = twist.index[a];
+      EXPECT_GE(twist.push[a], 0);
+      EXPECT_NEAR(at(j), 0, 1e-5);
+      for (std::size_t k = 0; k < 3; ++k) {
+        sum[k] += twist.push[a] * static_cast<double>(rows->n[k][j]);
+        sum[k + 3] += twist.push[a] * static_cast<double>(rows->m[k][j]);
+      }
+    }
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(sum[k], twist.z[k], 1e-9);
+    for (int j = 0; j < rows->count; ++j) EXPECT_GT(at(j), -1e-5);
+    most_active = std::max(most_active, twist.active);
+  }
+  EXPECT_EQ(most_active, 6);
+}
+
+// ---- against the proxy of three unknowns
+
+TEST(SixProxy, ABallAloneRestsWhereTheProxyOfThreeUnknownsRestsWithoutTorque) {
+  for (const bool groove : {false, true}) {
+    const Scene scene(groove ? phantom::groove(M_PI / 4) : phantom::ball(5 * kMm), 0.25);
+    const double r = 1.5 * kMm;
+    const Vec3 start(0, 0, groove ? 6 * kMm : 8 * kMm);
+    const Quat q = turn_about({1, 2, 3}, 0.4);
+    Proxy three(scene.surface, {.radius = r}, start);
+    SixProxy six(scene.surface, one_part({ShapeKind::ball, 0, 0, 0, r}), {}, {start, q});
+    double worst = 0;
+    for (int place = 0; place < 20; ++place) {
+      const Vec3 goal(0.1 * kMm * place, 0.06 * kMm * place, groove ? 1.8 * kMm : 6 * kMm);
+      SixTouch touch;
+      for (int n = 0; n < 60; ++n) {
+        static_cast<void>(three.step(goal));
+        touch = six.step({goal, q});
+        ASSERT_EQ(touch.turn.norm() < 1e-12, true) << touch.turn.norm();
+      }
+      EXPECT_GT(touch.active, 0);
+      worst = std::max(worst, (touch.world_from_tool.p - three.position()).norm());
+    }
+    // both work with floats; three discs that are nearly parallel turn their rounding into nanometres
+    EXPECT_LT(worst, 1e-8);  // 1e-5 mm
+  }
+}
+
+// ---- closed forms
+
+TEST(SixProxy, ACylinderLyingOnAPlaneIsPushedStraightBackWithoutTorque) {
+  const Scene scene(phantom::slab(Vec3(0.1, 0.2, 1)), 0.25);
+  const Vec3 up = Vec3(0.1, 0.2, 1).normalized();
+  const double a = 3 * kMm, deep = 0.5 * kMm;
+  SixProxy proxy(scene.surface, one_part({ShapeKind::cylinder, 2.7 * kMm, 0, 3 * kMm, 0.3 * kMm}),
+                 {.lever = std::sqrt(300e-6)}, {});
+  const Quat lying = math::shortest_rotation(Vec3::UnitZ(), up.unitOrthogonal());
+  proxy.place({up * 5 * kMm, lying});
+  const SixTouch touch = settle(proxy, {up * 5 * kMm, lying}, {up * (a - deep), lying});
+  EXPECT_FALSE(touch.lagging);
+  EXPECT_NEAR((touch.stretch - deep * up).norm() / deep, 0, 0.02);
+}
+
+// One contact at the lever l from c: N = delta / (1/k_t + l^2/k_r), torque N l.
+TEST(SixProxy, AShaftAcrossAnEdgeGivesWayAsLeverAndStiffnessSay) {
+  const Scene scene(phantom::capsule({0, -30 * kMm, -4 * kMm}, {0, 30 * kMm, 4 * kMm}, 1 * kMm),
+                    0.25, 12);
+  const double lever = std::sqrt(300e-6), delta = 0.5 * kMm, a = 1.2 * kMm;
+  const Vec3 up = Vec3(0, -4, 30).normalized();  // the ridge is tilted against the lattice
+  const Vec3 axis = Vec3::UnitX().cross(up);
+  for (const double l : {0.0, 5 * kMm, 8 * kMm}) {
+    SixProxy proxy(scene.surface, one_part({ShapeKind::capsule, 0, 0, 12 * kMm, a}),
+                   {.lever = lever}, {});
+    const Quat along_x = math::shortest_rotation(Vec3::UnitZ(), Vec3::UnitX());
+    const Pose from{5 * kMm * up - l * Vec3::UnitX(), along_x},
+        to{(1 * kMm + a - delta) * up - l * Vec3::UnitX(), along_x};
+    proxy.place(from);
+    const SixTouch touch = settle(proxy, from, to);
+    const double truth = delta / (1 + l * l / (lever * lever));
+    const double error = 0.06 * scene.h;  // of the ridge's own place
+    EXPECT_NEAR(touch.stretch.dot(up), truth, error) << l;
+    // the normal on a ridge of four voxels is off by up to 2 degrees, and with it the lever
+    EXPECT_NEAR(lever * lever * touch.turn.dot(axis), truth * l, error * l + truth * a * 0.04) << l;
+  }
+}
+
+// Force and torque on the hand are the sums of the contacts', in every tick that has come to rest.
+TEST(SixProxy, TheWrenchIsTheSumOfTheContacts) {
+  const Scene scene(phantom::groove(M_PI / 5), 0.25);
+  const double lever = 17 * kMm;
+  SixProxy proxy(scene.surface, burr(1.5 * kMm), {.lever = lever},
+                 {{0, 0, 9 * kMm}, Quat::Identity()});
+  int compared = 0;
+  for (int n = 0; n < 1500; ++n) {
+    const double t = n * 1e-3, down = std::min(1.0, n / 300.0);
+    const Pose hand{
+        {0.5 * kMm * std::sin(7 * t), 2 * kMm * std::sin(3 * t), (9 - 7.2 * down) * kMm},
+        turn_about({1, 0.3, 0}, 0.5 * std::sin(4 * t))};
+    const SixTouch touch = proxy.step(hand);
+    if (touch.active == 0 || touch.lagging || touch.moves >= 12) continue;
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+    for (int a = 0; a < touch.active; ++a) {
+      const SixContact& contact = touch.contacts[static_cast<std::size_t>(a)];
+      force += contact.load * contact.normal;
+      torque += contact.load * contact.lever;
+    }
+    ++compared;
+    EXPECT_NEAR((force - touch.stretch).norm(), 0, 1e-4 * touch.stretch.norm() + 2e-9) << n;
+    EXPECT_NEAR((torque - lever * lever * touch.turn).norm(), 0,
+                1e-4 * torque.norm() + 2e-9 * lever)
+        << n;
+  }
+  EXPECT_GT(compared, 800);
+}
+
+// A plate of 0.6 mm between hand and tool: the tool stays on its side, whatever the hand does.
+TEST(SixProxy, NoPartEverCrossesAThinPlate) {
+  constexpr unsigned kSeed = 7;
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  const Vec3 up = Vec3(0.2, 0.3, 1).normalized();
+  const Scene scene(phantom::plate(0.6 * kMm, up), 0.3, 9);
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> side(-5 * kMm, 5 * kMm), angle(-0.9, 0.9);
+  tool::Tool tool = one_part({ShapeKind::box, 0.2 * kMm, 2 * kMm, 2 * kMm, 0.15 * kMm});
+  ASSERT_TRUE(tool::add_part(tool, {{ShapeKind::vesica, 1 * kMm, 0, 3 * kMm, 0.3 * kMm},
+                                    {{0, 0, 4 * kMm}, Quat::Identity()},
+                                    Role::rubs}));
+  SixProxy proxy(scene.surface, tool, {}, {8 * kMm * up, Quat::Identity()});
+  Pose hand{8 * kMm * up, Quat::Identity()};
+  int wrong = 0, touched = 0;
+  double deepest = 0;
+  for (int tick = 0; tick < 6000; ++tick) {
+    if (tick % 40 == 0)
+      hand = {Vec3(side(random), side(random), side(random)),
+              turn_about({angle(random), angle(random), angle(random)}, angle(random))};
+    const SixTouch touch = proxy.step(hand);
+    touched += touch.active > 0 ? 1 : 0;
+    const Pose& at = touch.world_from_tool;
+    for (int n = 0; n < tool.count; ++n) {
+      const tool::Part& part = tool.parts[static_cast<std::size_t>(n)];
+      const Quat back = math::product(at.q, part.tool_from_part.q).conjugate();
+      const double lowest =
+          up.dot(at * part.tool_from_part.p) - tool::support(part.shape, back * -up);
+      deepest = std::min(deepest, lowest - 0.3 * kMm);
+      wrong += lowest < 0 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(deepest, -0.2 * kMm);  // points are a voxel apart, and a thin edge sinks between them
+  EXPECT_GT(touched, 2000);
+}
+
+// At a held hand, V never rises from one move to the next.
+TEST(SixProxy, EnergyFallsWhileTheHandIsStill) {
+  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const double lever = 17 * kMm;
+  SixProxy proxy(scene.surface, burr(1 * kMm), {.lever = lever, .max_moves = 1},
+                 {{0, 0, 30 * kMm}, Quat::Identity()});
+  const Pose hand{{0, 0, 3 * kMm}, turn_about({1, 0, 0}, 0.3)};
+  double last = 1e9;
+  for (int n = 0; n < 400; ++n) {
+    const SixTouch touch = proxy.step(hand);
+    const double v = touch.stretch.squaredNorm() + lever * lever * touch.turn.squaredNorm();
+    EXPECT_LE(v, last + 1e-12) << n;  // 1e-6 mm^2
+    last = v;
+  }
+}
+
+TEST(SixProxy, TakesNeitherMemoryNorLock) {
+  const Scene scene(phantom::ball(5 * kMm), 0.25);
+  SixProxy proxy(scene.surface, burr(1.5 * kMm), {}, {{0, 0, 8 * kMm}, Quat::Identity()});
+  const test::RtGuard guard;
+  for (int n = 0; n < 500; ++n)
+    static_cast<void>(proxy.step(
+        {{3 * kMm * std::sin(0.01 * n), 0, 5 * kMm}, turn_about({0, 1, 0}, std::sin(0.02 * n))}));
+  const long allocations = guard.allocations(), locks = guard.locks();
+  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(locks, 0);
+}
+
+TEST(SixProxy, KnowsWhetherEveryPartIsFree) {
+  const Scene scene(phantom::without(phantom::slab(), phantom::cylinder(4 * kMm, 20 * kMm)), 0.25);
+  SixProxy proxy(scene.surface, burr(1.5 * kMm), {}, {{0, 0, 9 * kMm}, Quat::Identity()});
+  EXPECT_TRUE(proxy.is_free({{0, 0, -4 * kMm}, Quat::Identity()}));
+  EXPECT_FALSE(proxy.is_free({{3 * kMm, 0, -4 * kMm}, Quat::Identity()}));      // the head
+  EXPECT_FALSE(proxy.is_free({{0, 0, -4 * kMm}, turn_about({0, 1, 0}, 0.9)}));  // the shaft
+  EXPECT_FALSE(proxy.is_free({{9 * kMm, 0, -6 * kMm}, Quat::Identity()}));      // in bone
+}
+
+}  // namespace
+}  // namespace burr::haptics
