@@ -1,0 +1,157 @@
+#include "burr/haptics/six/shaft_touch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "burr/math/sums.h"
+
+namespace burr::haptics {
+namespace {
+
+using math::Pose;
+using math::Vec3;
+
+tool::Tool burr_of(double radius) BURR_RT {
+  tool::Burr burr;
+  burr.radius = radius;
+  return tool::burr_with_shaft(burr);
+}
+
+Vec3 stretch_of(const Touch& touch) BURR_RT {
+  return touch.touching ? Vec3(touch.depth * touch.normal + touch.tangential) : Vec3(Vec3::Zero());
+}
+
+// Beyond it the head is not where the proxy of three unknowns has it                  [m]
+constexpr double kSamePlace = 1e-7;
+
+}  // namespace
+
+ShaftTouch::ShaftTouch(const volume::IsoVertices& surface, const ProxySettings& settings,
+                       const Vec3& hand)
+    : ball_(surface, settings, hand),
+      six_(surface, burr_of(settings.radius),
+           {.lever = kLever,
+            .max_moves = settings.max_moves,
+            .push_out_speed = settings.push_out_speed},
+           {hand, math::Quat::Identity()}),
+      slip_(settings.slip) {}
+
+void ShaftTouch::place(const Vec3& p) BURR_RT {
+  ball_.place(p);
+  shaft_ = rests_ = known_ = false;
+}
+
+void ShaftTouch::set_friction(double mu_static, double mu_kinetic) BURR_RT {
+  ball_.set_friction(mu_static, mu_kinetic);
+}
+
+bool ShaftTouch::set_radius(double radius) BURR_RT {
+  if (!ball_.set_radius(radius)) return false;
+  six_.take(burr_of(radius));
+  shaft_ = false;  // until the new neck is free
+  return true;
+}
+
+void ShaftTouch::set_max_moves(int moves) BURR_RT {
+  ball_.set_max_moves(moves);
+  six_.set_max_moves(moves);
+}
+
+// Without an orientation of the hand there is no shaft.
+Touch ShaftTouch::step(const Vec3& hand) BURR_RT {
+  shaft_ = rests_ = false;
+  return ball_.step(hand);
+}
+
+// Does any contact that carries something belong to a part that only rubs?
+bool ShaftTouch::shaft_rests(const SixTouch& six) const BURR_RT {
+  for (int a = 0; a < six.active; ++a) {
+    const SixContact& contact = six.contacts[static_cast<std::size_t>(a)];
+    const auto part = static_cast<std::size_t>(contact.part);
+    if (six_.tool().parts[part].role == tool::Role::rubs && contact.load > 0) return true;
+  }
+  return false;
+}
+
+// The head rests as the proxy of three unknowns says, if the shaft lets it get there.
+Touch ShaftTouch::as_ball(const Pose& hand) BURR_RT {
+  const Touch touch = ball_.step(hand.p);
+  if (!shaft_) {
+    const Pose there{touch.proxy, hand.q};
+    if (!six_.is_free(there)) return touch;
+    six_.place(there);
+    shaft_ = true;
+    return touch;
+  }
+  const Pose goal{touch.proxy, hand.q};
+  const SixTouch six = six_.step(goal);
+  rests_ = shaft_rests(six) || six.lagging;
+  // what the head's discs and the points of six unknowns differ by is rounding
+  if (!rests_ && math::norm(six.stretch) < kSamePlace) six_.place(goal);
+  return touch;
+}
+
+Touch ShaftTouch::as_tool(const SixTouch& six) BURR_RT {
+  Touch touch;
+  touch.proxy = six.world_from_tool.p;
+  touch.active = std::min(six.active, 3);
+  touch.candidates = six.candidates;
+  touch.lagging = six.lagging;
+  touch.overflow = six.overflow;
+  touch.depth = math::norm(six.stretch);
+  touch.touching = six.active > 0 && touch.depth > 1e-12;
+  if (touch.touching) touch.normal = six.stretch / touch.depth;
+  for (int a = 0; a < six.active; ++a) {
+    const SixContact& contact = six.contacts[static_cast<std::size_t>(a)];
+    touch.pressing += contact.load;
+    const auto part = static_cast<std::size_t>(contact.part);
+    if (six_.tool().parts[part].role == tool::Role::cuts)
+      contact_.head += contact.load * contact.normal;
+  }
+  contact_.torque = six.turn * (kLever * kLever);
+  // the next tick of the head alone begins here
+  ball_.place(touch.proxy);
+  return touch;
+}
+
+// As Proxy::limit_slip, while the shaft rests and until the stretch has caught up after that.
+void ShaftTouch::limit_slip(const Vec3& hand, Touch& touch) BURR_RT {
+  const Vec3 before = last_stretch_, stretch = stretch_of(touch);
+  const Vec3 change = stretch - before;
+  const double most = math::norm(hand - last_hand_) + slip_, length = math::norm(change);
+  const bool limited = known_ && slip_ > 0 && follows_ && length > most;
+  last_hand_ = hand;
+  last_stretch_ = stretch;
+  follows_ = contact_.rests || limited;
+  known_ = true;
+  if (!limited) return;
+  const Vec3 allowed = before + change * (most / length);
+  last_stretch_ = allowed;
+  const double along = touch.touching ? math::dot(allowed, touch.normal) : 0;
+  touch.touching = true;
+  if (along > 0) {
+    touch.depth = along;
+    touch.tangential = allowed - along * touch.normal;
+  } else {
+    touch.slipping = true;
+    touch.depth = math::norm(allowed);
+    touch.normal = allowed / std::max(touch.depth, 1e-12);
+    touch.tangential = Vec3::Zero();
+  }
+}
+
+Touch ShaftTouch::step_pose(const Pose& hand) BURR_RT {
+  contact_ = {};
+  Touch touch;
+  if (!rests_) touch = as_ball(hand);
+  if (rests_) {
+    const SixTouch six = six_.step(hand);
+    touch = as_tool(six);
+    contact_.rests = rests_ = shaft_rests(six) || six.lagging;
+    if (contact_.rests) follows_ = true;
+  }
+  limit_slip(hand.p, touch);
+  return touch;
+}
+
+}  // namespace burr::haptics

@@ -1,0 +1,69 @@
+// haptics/six/shaft_touch.h - a burr whose neck and shaft touch the bone too, felt by a device that pushes and does not turn the hand.
+//
+//     the shaft touches nothing   the proxy of three unknowns, to the bit (proxy.h)
+//     the shaft touches           the proxy of six unknowns (six_proxy.h): the tool moves aside, and
+//                                 turns where it must, on a virtual spring of turning k_r = k_t L^2
+//
+// Only the force is meant to be sent. The torque that the hand would have to feel beside it is in
+// ShaftContact; so is the head's own share of the contact, with which alone it may cut: the shaft
+// never cuts. While the shaft touches there is no friction, and the stretch of the spring changes no faster
+// than ProxySettings::slip allows: so no step is felt when one proxy takes over from the other.
+//
+// A shaft that stands in bone when the burr is put down (a hand that came back, an undo) is not felt
+// until it has been free once.
+//
+// Thread: servo. Frame: world. Memory: taken at construction.
+#pragma once
+
+#include "burr/haptics/proxy.h"
+#include "burr/haptics/six/six_proxy.h"
+#include "burr/haptics/touch_method.h"
+#include "burr/rt/rt.h"
+
+namespace burr::haptics {
+
+// What the shaft adds to a Touch. World frame.
+struct ShaftContact {
+  bool rests = false;  // the shaft is on bone
+  math::Vec3 head =
+      math::Vec3::Zero();  // the part of the stretch that the head's contacts carry [m]
+  math::Vec3 torque = math::Vec3::Zero();  // about the head's centre, over k_t; not sent [m^2]
+};
+
+class ShaftTouch final : public TouchMethod {
+ public:
+  // Of the virtual spring of turning: far stiffer than any wrist, so that the tool seen stays with
+  // the hand; docs/decisions.md.  [m]
+  static constexpr double kLever = 60e-3;
+
+  ShaftTouch(const volume::IsoVertices& surface, const ProxySettings& settings,
+             const math::Vec3& hand);
+
+  void place(const math::Vec3& p) BURR_RT override;
+  [[nodiscard]] Touch step(const math::Vec3& hand) BURR_RT override;
+  [[nodiscard]] Touch step_pose(const math::Pose& hand) BURR_RT;
+  [[nodiscard]] const ShaftContact& shaft() const BURR_RT { return contact_; }
+  [[nodiscard]] math::Pose pose() const BURR_RT { return six_.pose(); }
+  [[nodiscard]] const math::Vec3& position() const BURR_RT override { return ball_.position(); }
+  void set_friction(double mu_static, double mu_kinetic) BURR_RT override;
+  [[nodiscard]] bool set_radius(double radius) BURR_RT override;
+  void set_max_moves(int moves) BURR_RT;
+
+ private:
+  [[nodiscard]] bool shaft_rests(const SixTouch& six) const BURR_RT;
+  [[nodiscard]] Touch as_ball(const math::Pose& hand) BURR_RT;
+  [[nodiscard]] Touch as_tool(const SixTouch& six) BURR_RT;
+  void limit_slip(const math::Vec3& hand, Touch& touch) BURR_RT;
+
+  Proxy ball_;
+  SixProxy six_;
+  double slip_;         // [m/tick]
+  bool shaft_ = false;  // it has been free since the burr was put down
+  bool rests_ = false;  // on bone, in the last tick
+  ShaftContact contact_;
+  bool follows_ = false;  // the stretch is limited: the shaft rests, or the spring still follows
+  math::Vec3 last_hand_ = math::Vec3::Zero(), last_stretch_ = math::Vec3::Zero();
+  bool known_ = false;  // these two
+};
+
+}  // namespace burr::haptics
