@@ -4,9 +4,11 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "burr/render/soft_part.h"
@@ -69,28 +71,26 @@ bool covered(const volume::Bone& bone, const surface::Vertex& vertex) {
   return false;
 }
 
-// The part that bone covers, or the open part: of dura, the face towards the brain. It would hide
-// bone that is cut from that side, since nothing cuts dura.
-SoftStructure part_of(const volume::Bone& bone, const surface::Mesh& mesh, bool open) {
-  std::vector<bool> under_bone;
-  for (const surface::Vertex& vertex : mesh.vertices) under_bone.push_back(covered(bone, vertex));
-  surface::Mesh part;
-  std::vector<std::uint32_t> place(mesh.vertices.size(), 0);  // 1 and on
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    const std::uint32_t* corner = &mesh.triangles[t];
-    const bool hidden = under_bone[corner[0]] || under_bone[corner[1]] || under_bone[corner[2]];
-    if (hidden == open) continue;
+// In cubes of this size: so a picture that is redrawn in a corner draws what is there only.  [m]
+constexpr double kCube = 12e-3;
+
+// The triangles that lie in a cube; their vertices once each.
+struct Cube {
+  surface::Mesh mesh;
+  std::unordered_map<std::uint32_t, std::uint32_t> place;  // by vertex of the whole mesh
+
+  void add(const surface::Mesh& all, const std::uint32_t* corner) {
     for (int c = 0; c < 3; ++c) {
-      std::uint32_t& at = place[corner[c]];
-      if (at == 0) {
-        part.vertices.push_back(mesh.vertices[corner[c]]);
-        at = static_cast<std::uint32_t>(part.vertices.size());
-      }
-      part.triangles.push_back(at - 1);
+      const auto next = static_cast<std::uint32_t>(mesh.vertices.size());
+      const auto [at, fresh] = place.try_emplace(corner[c], next);
+      if (fresh) mesh.vertices.push_back(all.vertices[corner[c]]);
+      mesh.triangles.push_back(at->second);
     }
   }
+};
+
+SoftStructure structure_of(const surface::Mesh& part, bool open, double voxel) {
   SoftStructure structure;
-  if (part.triangles.empty()) return structure;
   JoinedMesh all;
   all.add(SkinMesh(part));
   for (SkinVertex& vertex : all.vertices) {
@@ -98,9 +98,30 @@ SoftStructure part_of(const volume::Bone& bone, const surface::Mesh& mesh, bool 
     structure.box.extend(vertex.p.cast<double>());
   }
   std::array<double, kErrors.size()> errors = kErrors;
-  for (double& e : errors) e *= bone.grid().voxel;
+  for (double& e : errors) e *= voxel;
   structure.mesh = std::make_shared<const CoarseMesh>(coarser(std::move(all), errors));
   return structure;
+}
+
+// The part that bone covers, or the open part: of dura, the face towards the brain. It would hide
+// bone that is cut from that side, since nothing cuts dura.
+void add_part(const volume::Bone& bone, const surface::Mesh& mesh, bool open,
+              volume::TissueId tissue, std::vector<SoftStructure>& out) {
+  std::vector<bool> under_bone;
+  for (const surface::Vertex& vertex : mesh.vertices) under_bone.push_back(covered(bone, vertex));
+  std::map<std::array<int, 3>, Cube> cubes;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const std::uint32_t* corner = &mesh.triangles[t];
+    const bool hidden = under_bone[corner[0]] || under_bone[corner[1]] || under_bone[corner[2]];
+    if (hidden == open) continue;
+    const Eigen::Array3i at =
+        (mesh.vertices[corner[0]].p.cast<double>() / kCube).array().floor().cast<int>();
+    cubes[{at.x(), at.y(), at.z()}].add(mesh, corner);
+  }
+  for (const auto& [at, cube] : cubes) {
+    out.push_back(structure_of(cube.mesh, open, bone.grid().voxel));
+    out.back().tissue = tissue;
+  }
 }
 
 }  // namespace
@@ -134,11 +155,7 @@ Status add_soft(Scene& scene, const volume::Bone& bone, Progress& progress) {
     if (bone.tissues()[tissue].name.find("marrow") != std::string::npos) continue;
     const Result<surface::Mesh> mesh = surface::label_surface(bone, tissue, quiet);
     if (!mesh) return mesh.error();
-    for (const bool open : {false, true}) {
-      SoftStructure part = part_of(bone, *mesh, open);
-      part.tissue = tissue;
-      if (part.mesh != nullptr) scene.soft.push_back(std::move(part));
-    }
+    for (const bool open : {false, true}) add_part(bone, *mesh, open, tissue, scene.soft);
   }
   return fine();
 }

@@ -31,6 +31,29 @@ void main() {
 }
 )";
 
+// What milling leaves on bone, on its colour and wetness: fresh, wet, dust, blood. cloud, speck: of
+// the noise; 0.5 where it is not drawn.
+inline constexpr const char* kStainFunction = R"(
+#ifdef STAINED
+void stain_on(inout vec3 c, inout float wet, vec4 stain, float ridges, float cloud, float speck) {
+  wet *= 1.0 - max(stain.x, 0.8 * ridges);  // the lining was cut away
+  c = mix(c, vec3(0.97, 0.95, 0.90), 0.38 * stain.x);
+  // a film of water: uneven at its edge, closed inside
+  float film = smoothstep(0.0, 0.7, stain.y * (1.6 - 0.6 * cloud) - 0.12 * cloud);
+  c *= 1.0 - 0.24 * film;
+  // dust lies in soft heaps; in water it is a smooth paste
+  float heaps = mix(1.9 * stain.z - 0.9 * cloud + 0.12 * (speck - 0.5), stain.z, 0.6 * film);
+  float lies = smoothstep(0.0, 0.75, heaps);
+  c = mix(c, mix(vec3(0.95, 0.93, 0.88), vec3(0.80, 0.76, 0.69), film) * (0.94 + 0.12 * speck), 0.88 * lies);
+  wet = max(wet * (1.0 - lies), film * (1.0 - 0.5 * lies));
+  // blood: a thin layer is bright, a thick one dark
+  float thick = stain.w, red = smoothstep(0.0, 0.45, thick * (1.25 - 0.5 * cloud));
+  c = mix(c, mix(vec3(0.62, 0.10, 0.07), vec3(0.34, 0.02, 0.02), thick), 0.93 * red);
+  wet = max(wet, 0.9 * red);
+}
+#endif
+)";
+
 // For bone and soft structures: normal, tissue and what shines through it, in 64 bits
 // (render/skin_mesh.h). STAINED: with what milling left; GRAIN: with the fine grain of materials;
 // CLIP: cut open.
@@ -50,9 +73,11 @@ out vec3 grain;
 #ifdef STAINED
 layout(location = 2) in vec4 at_stain;
 layout(location = 3) in uint at_ridges;
+#ifdef GRAIN
 uniform float turns_per_step;  // phase of the ridges  [rad]
 out vec4 stain;                // fresh, wet, dust, blood
 out vec2 ridge;                // phase, height
+#endif
 #endif
 #ifdef CLIP
 uniform vec4 plane;  // hidden where dot(plane, (p, 1)) > 0; world
@@ -81,9 +106,14 @@ void main() {
   grain = texelFetch(tissue_colours, ivec2(tissue, 1), 0).rgb;
 #endif
 #ifdef STAINED
+  float height = float(at_ridges & 255u) / 255.0;
+#ifdef GRAIN
   stain = at_stain;
   // the length begins again after some thousands of ridges, while single precision holds it
-  ridge = vec2(float((at_ridges >> 8u) % 286720u) * turns_per_step, float(at_ridges & 255u) / 255.0);
+  ridge = vec2(float((at_ridges >> 8u) % 286720u) * turns_per_step, height);
+#else
+  stain_on(colour.rgb, colour.a, at_stain, height, 0.5, 0.5);  // no finer than the surface
+#endif
 #endif
 }
 )";
@@ -101,7 +131,7 @@ in vec3 place;
 in vec3 grain;            // grain, pores, milk
 uniform sampler3D noise;  // gl/noise.h
 #endif
-#ifdef STAINED
+#if defined(STAINED) && defined(GRAIN)
 in vec4 stain;
 in vec2 ridge;
 #endif
@@ -121,11 +151,9 @@ void main() {
     wet = 0.0;
   }
 #endif
-  float cloud = 0.5, speck = 0.5;
 #ifdef GRAIN
   vec4 near = texture(noise, place), wide = texture(noise, place * 0.371 + 0.13);
-  cloud = near.r;
-  speck = near.b;
+  float cloud = near.r, speck = near.b;
   // blotches, warmer where they are darker, and a fine grain
   float blotch = wide.r - 0.5;
   c *= 1.0 + grain.x * (0.20 * (cloud - 0.5) + 0.12 * (speck - 0.5) + blotch * vec3(0.12, 0.16, 0.26));
@@ -137,29 +165,14 @@ void main() {
   // edges of what light passes through are bluish
   float edge = 1.0 - abs(n.z);
   c = mix(c, vec3(0.70, 0.79, 0.90), grain.z * (0.12 + 0.45 * edge * edge));
-#endif
 #ifdef STAINED
-#ifdef GRAIN
   // fine ridges across the way of a fluted burr; none where a pixel holds several of them
   vec2 way = vec2(dFdx(ridge.x), dFdy(ridge.x));
   float per_pixel = length(way), seen = ridge.y * (1.0 - smoothstep(0.8, 1.8, per_pixel));
   k.xy += 0.13 * seen * sin(ridge.x) * way / max(per_pixel, 1e-4);
   c *= 1.0 - 0.035 * seen * (0.5 - 0.5 * cos(ridge.x));
+  stain_on(c, wet, stain, ridge.y, cloud, speck);
 #endif
-  wet *= 1.0 - max(stain.x, 0.8 * ridge.y);  // the lining was cut away
-  c = mix(c, vec3(0.97, 0.95, 0.90), 0.38 * stain.x);
-  // a film of water: uneven at its edge, closed inside
-  float film = smoothstep(0.0, 0.7, stain.y * (1.6 - 0.6 * cloud) - 0.12 * cloud);
-  c *= 1.0 - 0.24 * film;
-  // dust lies in soft heaps; in water it is a smooth paste
-  float heaps = mix(1.9 * stain.z - 0.9 * cloud + 0.12 * (speck - 0.5), stain.z, 0.6 * film);
-  float lies = smoothstep(0.0, 0.75, heaps);
-  c = mix(c, mix(vec3(0.95, 0.93, 0.88), vec3(0.80, 0.76, 0.69), film) * (0.94 + 0.12 * speck), 0.88 * lies);
-  wet = max(wet * (1.0 - lies), film * (1.0 - 0.5 * lies));
-  // blood: a thin layer is bright, a thick one dark
-  float thick = stain.w, red = smoothstep(0.0, 0.45, thick * (1.25 - 0.5 * cloud));
-  c = mix(c, mix(vec3(0.62, 0.10, 0.07), vec3(0.34, 0.02, 0.02), thick), 0.93 * red);
-  wet = max(wet, 0.9 * red);
 #endif
   out_colour = vec4(c, 1.0 - 0.18 * clamp(wet, 0.0, 1.0));  // the lighting step reads the wetness
   out_n = vec4(clamp(k, -1.0, 1.0) * 0.5 + 0.5, 1.0);

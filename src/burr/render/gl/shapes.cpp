@@ -227,9 +227,10 @@ void Shapes::add_tool(const Burr& burr) {
   turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));
   add(burr.diamond ? grains_ : head_, placed(turned, burr.radius, burr.radius),
       burr.diamond ? kGrains : kSteel, !burr.diamond, false, {{{-1, -1, -1}, {1, 1, 1}}});
-  // boxes along the axis from..to, because one around a slanted tool would be mostly empty
-  const auto slices = [](double r, double from, double to, int count) {
+  // boxes along the axis, because one around a slanted tool would be mostly empty
+  const auto slices = [](double r, double from, double to) {
     std::vector<math::Aabb> boxes;
+    const int count = std::max(1, static_cast<int>((to - from) / (2 * r)));
     const double step = (to - from) / count;
     for (int n = 0; n < count; ++n)
       boxes.push_back({{-r, -r, from + n * step}, {r, r, from + (n + 1) * step}});
@@ -237,12 +238,18 @@ void Shapes::add_tool(const Burr& burr) {
   };
   const math::Pose& tool = burr.world_from_tool;
   add(shaft_, placed(tool, 1, 1), kSteel, true, false,
-      slices(burr.shaft_radius, 0, std::max(kOut, 12 * burr.radius), 3));
+      slices(burr.shaft_radius, 0, std::max(kOut, 12 * burr.radius)));
   const math::Pose held = {tool * Vec3(0, 0, kOut), tool.q};
-  add(collet_, placed(held, 1, 1), kCollet, true, false, slices(2.8e-3, -1.5e-3, 5e-3, 1));
-  add(nose_, placed(held, 1, 1), kSatin, true, false, slices(8e-3, 5e-3, 46e-3, 3));
-  add(grip_, placed(held, 1, 1), kGrip, true, false, slices(8.2e-3, 46e-3, 95e-3, 3));
-  add(tail_, placed(held, 1, 1), kSatin, true, false, slices(8.4e-3, 95e-3, 150e-3, 3));
+  add(collet_, placed(held, 1, 1), kCollet, true, false, slices(2.8e-3, -1.5e-3, 5e-3));
+  std::vector<math::Aabb> nose;
+  const Profile widths = nose_profile();
+  for (std::size_t n = 1; n < widths.size(); ++n)
+    for (const math::Aabb& box : slices(std::max(widths[n - 1].second, widths[n].second),
+                                        widths[n - 1].first, widths[n].first))
+      nose.push_back(box);
+  add(nose_, placed(held, 1, 1), kSatin, true, false, nose);
+  add(grip_, placed(held, 1, 1), kGrip, true, false, slices(8.2e-3, 46e-3, 95e-3));
+  add(tail_, placed(held, 1, 1), kSatin, true, false, slices(8.4e-3, 95e-3, 150e-3));
 }
 
 void Shapes::add_rod(const Rod& rod) {

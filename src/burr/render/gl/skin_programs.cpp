@@ -103,7 +103,8 @@ Status SkinPrograms::start(bool es) {
     const char *one = stained ? "#define STAINED\n" : "", *two = grain ? "#define GRAIN\n" : "",
                *three = clipped ? "#define CLIP\n" : "";
     Result<Program> linked =
-        Program::link(es, {one, two, three, kSkinVertex}, {one, two, three, kSkinFragment});
+        Program::link(es, {one, two, three, kStainFunction, kSkinVertex},
+                      {one, two, three, kStainFunction, kSkinFragment});
     if (!linked) return linked.error();
     programs_[stained ? 1 : 0][grain ? 1 : 0][clipped ? 1 : 0] = std::move(*linked);
   }
@@ -129,7 +130,7 @@ void SkinPrograms::use(const SkinKind& kind, const Scene& scene, const Frame& fr
   const Eigen::Matrix3d turn = frame.view.block<3, 3>(0, 0);
   program.set("view_from_model_n", Eigen::Matrix3f(turn.cast<float>()));
   program.set("tissue_colours", 0);
-  if (kind.stained)
+  if (kind.stained && kind.grain)
     program.set("turns_per_step",
                 static_cast<float>(2 * std::numbers::pi * Stain::kAlong / kRidgePitch));
   if (kind.grain) {
