@@ -35,6 +35,13 @@ file(READ ${BURR_MATERIALS} BURR_MATERIALS_TEXT)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_materials.cpp.in ${CMAKE_BINARY_DIR}/built_in_materials.cpp @ONLY)
 list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_materials.cpp)
 
+# ... and the tools
+set(BURR_TOOLS ${PROJECT_SOURCE_DIR}/tools/tools.toml)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${BURR_TOOLS})
+file(READ ${BURR_TOOLS} BURR_TOOLS_TEXT)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_tools.cpp.in ${CMAKE_BINARY_DIR}/built_in_tools.cpp @ONLY)
+list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
+
 # The library in parts, by what they need. Each part is compiled once; libburr.so is their sum.
 #
 #     burr_core          Eigen                                    a library of its own, libburr_core.so (core.cmake)
@@ -85,11 +92,11 @@ burr_part(burr_workshop FROM workshop/)
 burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ surgeon/ sim/
   MORE ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
-  MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
+  MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp
     ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp
   WITH ZLIB::ZLIB BZip2::BZip2 PkgConfig::ZSTD nlohmann_json::nlohmann_json ${CMAKE_DL_LIBS})
 set(known ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
-  ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp)
+  ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 list(REMOVE_ITEM rest ${known})
 if(rest)
   message(FATAL_ERROR "in no part of the library (cmake/library.cmake): ${rest}")

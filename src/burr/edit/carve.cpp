@@ -69,6 +69,49 @@ Excess clipped(const Excess& found, const volume::Field* field, const Layers& la
   return left;
 }
 
+// The ball, as gather() meets a body.
+class PlacedBall {
+ public:
+  // keep_out: a ball that a deposit must not fill; radius below 0: none
+  PlacedBall(FindExcess kernel, const Vec3& centre, double radius, const float keep_out[4],
+             bool deposit) BURR_RT : find_(kernel),
+                                     centre_(centre),
+                                     radius_(radius),
+                                     keep_out_(keep_out),
+                                     deposit_(deposit),
+                                     low_(centre - Vec3::Constant(radius + volume::kRamp)),
+                                     high_(centre + Vec3::Constant(radius + volume::kRamp)) {}
+
+  [[nodiscard]] const Vec3& low() const BURR_RT { return low_; }
+  [[nodiscard]] const Vec3& high() const BURR_RT { return high_; }
+  [[nodiscard]] double nearest(const Vec3& first) const BURR_RT {
+    Vec3 voxel;
+    for (int axis = 0; axis < 3; ++axis)
+      voxel[axis] = std::clamp(centre_[axis], first[axis], first[axis] + kBrickEdge - 1);
+    return math::norm(voxel - centre_) - radius_;
+  }
+  [[nodiscard]] Excess find(const volume::Field* field, const Vec3& first,
+                            std::uint16_t* out) const BURR_RT {
+    const Vec3 offset = first - centre_;
+    const float ball[4] = {static_cast<float>(offset.x()), static_cast<float>(offset.y()),
+                           static_cast<float>(offset.z()), static_cast<float>(radius_)};
+    float outside[4] = {0, 0, 0, -1};
+    if (keep_out_[3] >= 0)
+      for (int axis = 0; axis < 3; ++axis)
+        outside[axis] = static_cast<float>(first[axis]) - keep_out_[axis];
+    outside[3] = keep_out_[3];
+    return find_(field, ball, outside, deposit_ ? 1 : 0, out);
+  }
+
+ private:
+  FindExcess find_;
+  Vec3 centre_;
+  double radius_;
+  const float* keep_out_;
+  bool deposit_;
+  Vec3 low_, high_;
+};
+
 }  // namespace
 
 CarveKernel carve_kernel() noexcept {
@@ -85,25 +128,25 @@ Carver::Carver(BoneWriter& writer, const CarveSettings& settings)
       account_(writer.account()),
       settings_(settings),
       kernel_(carve_kernel()),
+      shapes_(shape_kernel()),
       reached_(writer) {
   const double h = bone_.grid().voxel;
   advance_ = std::max(settings.advance_m / h, settings.advance_least);
   least_margin_ = margin_ = std::max(settings.margin_m / h, settings.margin_least);
 }
 
-// Collects the bricks that the ball touches and the excess of each: the field above the limit that
-// the ball sets (or, to add material, what is missing below it).
-void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], bool deposit,
-                    int slices, const Half& half, std::uint32_t& flags) BURR_RT {
+// Collects the bricks that the body touches and the excess of each: the field above the limit that
+// the body sets (or, to add material, what is missing below it).
+template <class Body>
+void Carver::gather(const Body& body, bool deposit, int slices, const Half& half,
+                    std::uint32_t& flags) BURR_RT {
   reached_.begin_side();
-  const double reach = radius + volume::kRamp;
   math::Ijk lo, hi;
   for (int axis = 0; axis < 3; ++axis) {
     const double most = bone_.bricks()[axis] - 1;
-    lo[axis] = static_cast<int>(
-        std::clamp(std::floor((centre[axis] - reach) / kBrickEdge), 0.0, most + 1));
-    hi[axis] =
-        static_cast<int>(std::clamp(std::floor((centre[axis] + reach) / kBrickEdge), -1.0, most));
+    lo[axis] =
+        static_cast<int>(std::clamp(std::floor(body.low()[axis] / kBrickEdge), 0.0, most + 1));
+    hi[axis] = static_cast<int>(std::clamp(std::floor(body.high()[axis] / kBrickEdge), -1.0, most));
   }
   for (int bk = lo.z(); bk <= hi.z(); ++bk)
     for (int bj = lo.y(); bj <= hi.y(); ++bj)
@@ -113,15 +156,10 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
         const BrickIndex brick = bone_.brick_at(bi, bj, bk);
         if (!deposit && writer_.highest(brick) == 0) continue;
         const Vec3 first(kBrickEdge * bi, kBrickEdge * bj, kBrickEdge * bk);
-        // nearest voxel of the brick to the centre
-        Vec3 nearest;
-        for (int axis = 0; axis < 3; ++axis)
-          nearest[axis] = std::clamp(centre[axis], first[axis], first[axis] + kBrickEdge - 1);
-        const double far = math::norm(nearest - centre);
-        if (far > reach) continue;
-        // nothing to cut: nowhere in the brick is the field above the limit that the ball sets
-        if (!deposit &&
-            writer_.highest(brick) <= volume::kIso + (far - radius) * volume::kFieldPerVoxel)
+        const double nearest = body.nearest(first);
+        if (nearest > volume::kRamp) continue;
+        // nothing to cut: nowhere in the brick is the field above the limit that the body sets
+        if (!deposit && writer_.highest(brick) <= volume::kIso + nearest * volume::kFieldPerVoxel)
           continue;
         std::uint16_t* out = reached_.next();
         if (out == nullptr) return;
@@ -130,15 +168,7 @@ void Carver::gather(const Vec3& centre, double radius, const float keep_out[4], 
           if (!deposit || !writer_.make_room(brick, flags)) continue;
           field = bone_.brick_field(brick);
         }
-        const Vec3 offset = first - centre;
-        const float ball[4] = {static_cast<float>(offset.x()), static_cast<float>(offset.y()),
-                               static_cast<float>(offset.z()), static_cast<float>(radius)};
-        float outside[4] = {0, 0, 0, -1};
-        if (keep_out[3] >= 0)
-          for (int axis = 0; axis < 3; ++axis)
-            outside[axis] = static_cast<float>(first[axis]) - keep_out[axis];
-        outside[3] = keep_out[3];
-        Excess excess = kernel_.find(field, ball, outside, deposit ? 1 : 0, out);
+        Excess excess = body.find(field, first, out);
         Layers keep = deposit ? layers_inside({bi, bj, bk}, bone_.grid().size) : kWholeBrick;
         if (half.mirror.on()) keep[static_cast<std::size_t>(half.mirror.axis)] &= layers;
         if (keep != kWholeBrick && excess.most > 0)
@@ -204,10 +234,19 @@ void Carver::write_off(double asked_units, double dt, int slices) BURR_RT {
 void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   constexpr float kNone[4] = {0, 0, 0, -1};
   const int slices = choose_slices(cut.slices, flags);
-  const Sides sides = sides_of(cut.centre + advance_ * cut.push, cut.mirror);
   reached_.begin();
-  for (int s = 0; s < sides.count; ++s)
-    gather(sides.centre[s], cut.radius + margin_, kNone, false, slices, sides.half[s], flags);
+  if (cut.body != nullptr) {
+    const ToolBody body = advanced(*cut.body, advance_);
+    const Sides sides = sides_of(body.grid_from_tool.p, cut.mirror);
+    for (int s = 0; s < sides.count; ++s)
+      gather(PlacedBody(shapes_, body, sides.half[s], margin_), false, slices, sides.half[s],
+             flags);
+  } else {
+    const Sides sides = sides_of(cut.centre + advance_ * cut.push, cut.mirror);
+    for (int s = 0; s < sides.count; ++s)
+      gather(PlacedBall(kernel_.find, sides.centre[s], cut.radius + margin_, kNone, false), false,
+             slices, sides.half[s], flags);
+  }
   reached_.end(cut.mirror);
   const double asked = cut.energy / reached_.mean_energy() / writer_.unit_m3();
   account_.asked += asked;
@@ -238,7 +277,8 @@ void Carver::deposit(const Cut& cut, std::uint32_t& flags) BURR_RT {
     const float keep_out[4] = {static_cast<float>(burr.x()), static_cast<float>(burr.y()),
                                static_cast<float>(burr.z()),
                                static_cast<float>(cut.radius + settings_.deposit_gap)};
-    gather(sides.centre[s], radius, keep_out, true, slices, sides.half[s], flags);
+    gather(PlacedBall(kernel_.find, sides.centre[s], radius, keep_out, true), true, slices,
+           sides.half[s], flags);
   }
   reached_.end(cut.mirror);
   const double debt_timeout = settings_.debt_timeout + (slices - 1) * cut.dt;

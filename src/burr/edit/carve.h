@@ -28,6 +28,7 @@
 #include "burr/edit/ledger.h"
 #include "burr/edit/mirror.h"
 #include "burr/edit/reached.h"
+#include "burr/edit/tool_body.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 #include "burr/volume/bone.h"
@@ -52,15 +53,16 @@ struct CarveSettings {
 
 // One tick of cutting.
 struct Cut {
-  math::Vec3 centre;              // of the burr, p_grid
-  math::Vec3 push;                // unit, from burr into the bone, p_grid axes
-  double radius = 0;              // of the burr [voxel]
-  double energy = 0;              // to be spent this tick [J] (carve)
-  double volume = 0;              // to be put on this tick [m^3] (deposit)
-  volume::TissueId material = 1;  // deposit: its tissue
-  double dt = 1e-3;               // [s]
-  int slices = 1;                 // the bricks are cut in this many ticks, in turn; a power of two
-  Mirror mirror = {};             // the same is done across it
+  math::Vec3 centre;               // of the burr, p_grid
+  math::Vec3 push;                 // unit, from burr into the bone, p_grid axes
+  double radius = 0;               // of the burr [voxel]
+  const ToolBody* body = nullptr;  // carve: cuts in place of the ball, if there is one
+  double energy = 0;               // to be spent this tick [J] (carve)
+  double volume = 0;               // to be put on this tick [m^3] (deposit)
+  volume::TissueId material = 1;   // deposit: its tissue
+  double dt = 1e-3;                // [s]
+  int slices = 1;                  // the bricks are cut in this many ticks, in turn; a power of two
+  Mirror mirror = {};              // the same is done across it
 };
 
 class Carver {
@@ -95,8 +97,9 @@ class Carver {
   [[nodiscard]] double least_margin() const BURR_RT { return least_margin_; }  // [voxel]
 
  private:
-  void gather(const math::Vec3& centre, double radius, const float keep_out[4], bool deposit,
-              int slices, const Half& half, std::uint32_t& flags) BURR_RT;
+  template <class Body>
+  void gather(const Body& body, bool deposit, int slices, const Half& half,
+              std::uint32_t& flags) BURR_RT;
   [[nodiscard]] int choose_slices(int wanted, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] double excess_of_all_slices() BURR_RT;
   void write_off(double asked_units, double dt, int slices) BURR_RT;
@@ -106,6 +109,7 @@ class Carver {
   Account& account_;  // the writer's
   CarveSettings settings_;
   CarveKernel kernel_;
+  ShapeKernel shapes_;
   Reached reached_;
   int crowd_slices_ = 1;      // number of slices in which they fit
   int preferred_slices_ = 1;  // in how many it is worth the while

@@ -102,9 +102,8 @@ Status SkinPrograms::start(bool es) {
                clipped = (variant & 4) != 0;
     const char *one = stained ? "#define STAINED\n" : "", *two = grain ? "#define GRAIN\n" : "",
                *three = clipped ? "#define CLIP\n" : "";
-    Result<Program> linked =
-        Program::link(es, {one, two, three, kStainFunction, kSkinVertex},
-                      {one, two, three, kStainFunction, kSkinFragment});
+    Result<Program> linked = Program::link(es, {one, two, three, kStainFunction, kSkinVertex},
+                                           {one, two, three, kStainFunction, kSkinFragment});
     if (!linked) return linked.error();
     programs_[stained ? 1 : 0][grain ? 1 : 0][clipped ? 1 : 0] = std::move(*linked);
   }

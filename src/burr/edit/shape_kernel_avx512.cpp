@@ -1,0 +1,2 @@
+#define BURR_KERNEL avx512
+#include "burr/edit/shape_kernel.inc"

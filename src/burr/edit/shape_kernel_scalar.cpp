@@ -1,0 +1,2 @@
+#define BURR_KERNEL scalar
+#include "burr/edit/shape_kernel.inc"

@@ -1,0 +1,50 @@
+// scenario/rack.h - the tools that a session may take: the built-in ones (tools/tools.toml) and
+// those of a file of one's own. File format: docs/tools.md.
+//
+//     Result<Rack> rack = read_rack("mine.toml");   // added to the built-in ones
+//     const RackTool* saw = rack->find("sagittal-saw");
+//
+// Units: SI; the keys in a file name the units of the file. Thread: any. Errors: what is wrong in
+// the file, one sentence with file, line and field.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "burr/base/result.h"
+#include "burr/scenario/lesson.h"
+#include "burr/tool/cutter.h"
+#include "burr/tool/tool.h"
+
+namespace burr::scenario {
+
+struct RackTool {
+  std::string name;    // "sagittal-saw": how it is chosen, and recorded
+  Texts title;         // as a person reads it
+  std::string group;   // "burrs", "burs", "drills", "saws", "hand": how the list is ordered
+  std::string source;  // where the sizes come from
+  tool::Tool tool;
+  tool::Cutter cutter;
+};
+
+struct Rack {
+  std::vector<RackTool> all;
+  // nullptr: there is none of this name.
+  [[nodiscard]] const RackTool* find(std::string_view name) const;
+  // The same, or an error that lists the names.
+  [[nodiscard]] Result<RackTool> get(std::string_view name) const;
+};
+
+[[nodiscard]] const Rack& built_in_rack();
+
+// The built-in tools with those of the file; one of the same name takes the place of the built-in.
+[[nodiscard]] Result<Rack> read_rack(const std::string& path);
+// file: name for error messages; base: the tools that the text adds to.
+[[nodiscard]] Result<Rack> parse_rack(std::string_view text, std::string_view file,
+                                      const Rack& base);
+
+// Largest distance of a cutting part's surface from the tool's axis, times two.  [m]
+[[nodiscard]] double cutting_width(const RackTool& tool);
+
+}  // namespace burr::scenario
