@@ -92,6 +92,7 @@ using Range = std::pair<double, double>;  // least and most
 
 struct Structure {
   std::string name;
+  Texts title;                     // as people read it; empty: `name`
   std::vector<std::string> names;  // in bones: every tissue of one of these names belongs to it
   Intact intact = Intact::unsaid;
   bool glass = false;     // one looks through it, and it is never spared

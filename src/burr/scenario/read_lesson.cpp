@@ -20,10 +20,11 @@ void scale(std::optional<Range>& range, double unit) {
 }
 
 void read_structure(Reader& reader, Structure& out) {
-  reader.only({"name", "names", "intact", "glass", "optional", "volume_mm3", "inscribed_mm",
-               "pieces", "length_mm", "touches", "apart"});
+  reader.only({"name", "title", "names", "intact", "glass", "optional", "volume_mm3",
+               "inscribed_mm", "pieces", "length_mm", "touches", "apart"});
   out.line = reader.line();
   reader.text("name", out.name, true);
+  read_texts(reader, "title", out.title);
   reader.texts("names", out.names);
   if (out.names.empty()) out.names = {out.name};
   reader.choice<Intact>(

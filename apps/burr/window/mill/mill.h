@@ -54,6 +54,7 @@
 #include "window/mill/views.h"
 #include "window/mill/window_options.h"
 #include "window/mill/worn_headset.h"
+#include "window/shell/anatomy.h"
 #include "window/shell/desk.h"
 #include "window/shell/help.h"
 #include "window/shell/status_line.h"
@@ -80,6 +81,7 @@ class Mill {
         mirror_(session.bone().grid()),
         drill_(session, scene.burr) {
     if (options_.lesson) steps_ = Steps(options_.lesson->steps);
+    take_titles_of(options_.lesson ? &*options_.lesson : nullptr);
   }
 
   Result<Closed> run();

@@ -124,7 +124,8 @@ void Mill::draw_side_panel() {
     case Leaf::none:
       break;
     case Leaf::task:
-      if (draw_task(ui, *options_.work_case)) leaf_ = Leaf::none;
+      if (draw_task(ui, *options_.work_case, options_.lesson ? &*options_.lesson : nullptr))
+        leaf_ = Leaf::none;
       break;
     case Leaf::steps:
       draw_steps_panel();

@@ -31,11 +31,14 @@ Word word_of(const scenario::Target& target) {
   return Word::task_open;
 }
 
-std::vector<Line> lines_of(const scenario::Case& work) {
+std::vector<Line> lines_of(const scenario::Case& work, const scenario::Lesson* lesson) {
   using Letter = Ui::Letter;
   std::vector<Line> lines;
-  lines.push_back({Letter::strong, ink::kAccent, work.title});
-  if (!work.description.empty()) lines.push_back({Letter::body, ink::kText, work.description});
+  const std::string title = lesson != nullptr ? lesson->title.in(spoken().code) : work.title,
+                    description = lesson != nullptr ? lesson->description.in(spoken().code)
+                                                    : work.description;
+  lines.push_back({Letter::strong, ink::kAccent, title});
+  if (!description.empty()) lines.push_back({Letter::body, ink::kText, description});
   for (const scenario::Target& target : work.targets) {
     const Word says = word_of(target);
     lines.push_back({Letter::body, ink::kText,
@@ -59,9 +62,9 @@ std::string flowing(std::string text) {
 
 }  // namespace
 
-bool draw_task(Ui& ui, const scenario::Case& work) {
+bool draw_task(Ui& ui, const scenario::Case& work, const scenario::Lesson* lesson) {
   const float u = ui.unit(), wide = kSideWide * u, inside = wide - 28 * u, gap = 6 * u;
-  std::vector<Line> lines = lines_of(work);
+  std::vector<Line> lines = lines_of(work, lesson);
   float high = 2 * 12 * u - gap;
   for (Line& line : lines) {
     line.text = flowing(std::move(line.text));

@@ -5,11 +5,13 @@
 #pragma once
 
 #include "burr/scenario/case.h"
+#include "burr/scenario/lesson.h"
 #include "window/shell/ui.h"
 
 namespace burr::app {
 
-// True: it was clicked, and goes away.
-[[nodiscard]] bool draw_task(Ui& ui, const scenario::Case& work);
+// lesson: of the case, for title and description in the user's language; nullptr: in English. True:
+// it was clicked, and goes away.
+[[nodiscard]] bool draw_task(Ui& ui, const scenario::Case& work, const scenario::Lesson* lesson);
 
 }  // namespace burr::app

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "window/replay/timeline_panel.h"
+#include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -153,8 +154,8 @@ bool Comparison::draw(Ui& ui, float x, float y, const Facts* left, bool colours)
     if (each.spare)
       ImGui::GetWindowDrawList()->AddTriangleFilled(
           {x + 3 * u, at + 12 * u}, {x + 11 * u, at + 12 * u}, {x + 7 * u, at + 4 * u}, ink::kWarn);
-    row(each.name, fmt::format("{:.1f}", 1e9 * each.left), fmt::format("{:.1f}", 1e9 * each.right),
-        each.spare ? ink::kWarn : ink::kText);
+    row(anatomy(each.name), fmt::format("{:.1f}", 1e9 * each.left),
+        fmt::format("{:.1f}", 1e9 * each.right), each.spare ? ink::kWarn : ink::kText);
   }
   if (rows.empty()) row(word(Word::beside_nothing), "", "");
   const auto least = [](const Facts& facts) {
@@ -164,7 +165,8 @@ bool Comparison::draw(Ui& ui, float x, float y, const Facts* left, bool colours)
   row(word(Word::beside_nearest), least(*left), least(*right));
   const auto where = [](const Facts& facts) {
     const auto found = facts.least();
-    return found ? fmt::format("{} {}", found->name, clock_of(found->t)) : std::string("-");
+    return found ? fmt::format("{} {}", anatomy(found->name), clock_of(found->t))
+                 : std::string("-");
   };
   ui.write(name, at, Letter::small, ink::kDim, where(*left) + "  |  " + where(*right));
   at += line;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "burr/base/printable.h"
 #include "burr/record/player.h"
 #include "burr/volume/distance_to.h"
 #include "burr/workshop/spared.h"
@@ -22,7 +21,7 @@ std::size_t part_of(double t, double seconds) {
 }
 
 std::string name_in(const volume::TissueTable& table, volume::TissueId id) {
-  return base::printable(table[id].name, 30);
+  return table[id].name;
 }
 
 // Notes a turning burr that is inside of something to be spared.

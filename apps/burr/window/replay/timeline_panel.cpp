@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "window/mill/hud.h"
+#include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -255,10 +256,11 @@ class Line {
       const Facts::Part part = facts_->nearest_in(t, t + whole_ / static_cast<double>(w_));
       if (part.distance < Facts::kFar)
         text += say(Word::replay_distance, 1e3 * static_cast<double>(part.distance),
-                    facts_->name_of(part));
+                    anatomy(facts_->name_of(part)));
       for (const Violation& hurt : facts_->violations)
         if (t > hurt.from - near && t < hurt.until + near)
-          text += say(Word::replay_violation, hurt.name, 1e3 * hurt.deepest, clock_of(hurt.from));
+          text += say(Word::replay_violation, anatomy(hurt.name), 1e3 * hurt.deepest,
+                      clock_of(hurt.from));
     }
     for (const record::Stroke& stroke : line_.strokes)
       if (t > stroke.begin_s - near && t < stroke.end_s + near) {

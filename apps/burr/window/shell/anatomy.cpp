@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include "burr/base/printable.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
 namespace {
+
+constexpr std::size_t kLongest = 40;  // name [letter]
 
 struct Known {
   std::string_view name;
@@ -68,12 +73,43 @@ constexpr Known kKnown[] = {
     {"enamel or metal", Word::at_enamel_metal},
 };
 
+using Titles = std::map<std::string, scenario::Texts, std::less<>>;
+
+// Of the case: of its structures, and of the tissues that belong to them.
+struct OfCase {
+  Titles structures, tissues;
+};
+OfCase& of_case() {
+  static OfCase all;
+  return all;
+}
+
+std::optional<std::string> title_in(const Titles& titles, std::string_view name) {
+  const auto found = titles.find(name);
+  if (found == titles.end()) return std::nullopt;
+  return base::printable(found->second.in(spoken().code), kLongest);
+}
+
 }  // namespace
 
+void take_titles_of(const scenario::Lesson* lesson) {
+  of_case() = {};
+  if (lesson == nullptr) return;
+  for (const scenario::Structure& one : lesson->structures) {
+    if (one.title.empty()) continue;
+    of_case().structures.emplace(one.name, one.title);
+    for (const std::string& tissue : one.names) of_case().tissues.emplace(tissue, one.title);
+  }
+}
+
 std::string anatomy(std::string_view name) {
+  if (auto title = title_in(of_case().structures, name)) return *std::move(title);
   const auto* found = std::find_if(std::begin(kKnown), std::end(kKnown),
                                    [&](const Known& one) { return one.name == name; });
-  return found != std::end(kKnown) ? word(found->word) : base::printable(name, 40);
+  if (found != std::end(kKnown)) return word(found->word);
+  // several tissues may belong to one structure: their own names tell more, where burr knows them
+  if (auto title = title_in(of_case().tissues, name)) return *std::move(title);
+  return base::printable(name, kLongest);
 }
 
 std::string anatomy_list(const std::vector<std::string>& names) {

@@ -2,17 +2,24 @@
 //
 //     anatomy("facial nerve")     "nervus facialis" in Swedish
 //
-// Known are the tissues and structures of the bones made from formulas and of burr's own cases. Any
-// other name comes back as the file has it, made safe to print. Thread: any; speak() on main.
+// The titles that a case gives its structures come first. burr itself knows the tissues and
+// structures of the bones made from formulas and of its own cases. Any other name comes back as the
+// file has it, made safe to print. Thread: main.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "burr/scenario/lesson.h"
+
 namespace burr::app {
 
 [[nodiscard]] std::string anatomy(std::string_view name);
+
+// From now on the titles of this case's structures hold, for the structures and for those tissues of
+// theirs that burr does not know; nullptr: those of no case.
+void take_titles_of(const scenario::Lesson* lesson);
 
 // All of them, "facial nerve, dura".
 [[nodiscard]] std::string anatomy_list(const std::vector<std::string>& names);
