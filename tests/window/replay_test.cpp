@@ -12,6 +12,7 @@
 #include <iterator>
 
 #include "burr/render/bone_scene.h"
+#include "burr/render/held_tool.h"
 #include "burr/surgeon/motion.h"
 #include "commands/recording.h"
 #include "commands/work.h"
@@ -44,8 +45,8 @@ class Replay : public Window {
     ASSERT_TRUE(path) << path.error().text;
     auto session = sim::Session::make(
         std::move(work->bone),
-        std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{}), settings,
-        quiet);
+        std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{}, hand_),
+        settings, quiet);
     ASSERT_TRUE(session) << session.error().text;
     Recording recording;
     ASSERT_TRUE(
@@ -87,11 +88,38 @@ class Replay : public Window {
     };
   }
 
+  device::DeviceSpec hand_;
   fs::path file_ = folder_ / "s.mcap";
   std::uint64_t before_ = 0, half_ = 0, after_ = 0;
   double removed_ = 0;
   Watched seen_;
 };
+
+class ReplayOfAMouse : public Replay {
+ protected:
+  ReplayOfAMouse() { hand_.name = "mouse"; }
+};
+
+TEST_F(ReplayOfAMouse, ShowsTheToolHeldAsWhileMillingAndNotAlongTheRecordedAxis) {
+  Recorded recorded = open();
+  ASSERT_TRUE(recorded.bone);
+  math::Vec3 drawn = math::Vec3::Zero(), sight = drawn, right = drawn;
+  watch_by(recorded, 4.999, {{"half time", shows(4.999), [&] {
+                                const render::Scene& scene = recorded.scene;
+                                drawn = scene.burr.world_from_tool.q * math::Vec3::UnitZ();
+                                sight = scene.camera.eye() - scene.burr.world_from_tool.p;
+                                right = scene.camera.right();
+                                press(SDLK_ESCAPE);
+                              }}});
+  const math::Vec3 along =
+      recorded.player->tick_at(4.999)->hand.world_from_tool.q * math::Vec3::UnitZ();
+  const auto angle = [](const math::Vec3& a, const math::Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  };
+  EXPECT_GT(angle(drawn, sight), 0.95 * render::HeldTool::kLeast);
+  EXPECT_GT(angle(drawn, along), 0.1);
+  EXPECT_GT(drawn.dot(right), 0.1) << "from the side of the right hand";
+}
 
 // Removed and not undone at that second [m^3].
 double left_at(record::Player& player, double t) {

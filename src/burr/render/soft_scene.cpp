@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "burr/render/soft_part.h"
 #include "burr/surface/label_surface.h"
@@ -53,7 +55,8 @@ constexpr std::array kSofts = {
 };
 constexpr Material kBone = {0, 0.6F, 0.5F, 0}, kSoft = {0.8F, 0.15F, 0, 0.1F};
 
-constexpr double kCover = 1e-3;  // farthest bone that counts as lying on a structure [m]
+constexpr double kCover = 1e-3;     // farthest bone that counts as lying on a structure [m]
+constexpr double kSmallest = 4e-6;  // piece of a structure that is seen in an opened bone [m^2]
 
 // Whether bone lies, or lay before it was cut, on the surface here: cutting leaves labels as they
 // are.
@@ -103,23 +106,52 @@ SoftStructure structure_of(const surface::Mesh& part, bool open, double voxel) {
   return structure;
 }
 
-// The part that bone covers, or the open part: of dura, the face towards the brain. It would hide
-// bone that is cut from that side, since nothing cuts dura.
-void add_part(const volume::Bone& bone, const surface::Mesh& mesh, bool open,
-              volume::TissueId tissue, std::vector<SoftStructure>& out) {
+// Marks the triangles that bone covers: all three corners, since at the rim others would stand out of
+// the bone as slivers. Pieces smaller than kSmallest are left out for the same reason.
+std::vector<bool> covered_triangles(const volume::Bone& bone, const surface::Mesh& mesh) {
   std::vector<bool> under_bone;
   for (const surface::Vertex& vertex : mesh.vertices) under_bone.push_back(covered(bone, vertex));
+  std::vector<std::uint32_t> root(mesh.vertices.size());
+  std::iota(root.begin(), root.end(), 0U);
+  const auto piece_of = [&root](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  std::vector<bool> triangles(mesh.triangles.size() / 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const std::uint32_t* corner = &mesh.triangles[3 * t];
+    triangles[t] = under_bone[corner[0]] && under_bone[corner[1]] && under_bone[corner[2]];
+    if (!triangles[t]) continue;
+    root[piece_of(corner[1])] = piece_of(corner[0]);
+    root[piece_of(corner[2])] = piece_of(corner[0]);
+  }
+  std::vector<double> area(mesh.vertices.size(), 0);  // of the piece with this root [m^2]
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!triangles[t]) continue;
+    const std::uint32_t* corner = &mesh.triangles[3 * t];
+    const auto at = [&](int c) { return mesh.vertices[corner[c]].p; };
+    area[piece_of(corner[0])] +=
+        static_cast<double>((at(1) - at(0)).cross(at(2) - at(0)).norm()) / 2;
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    triangles[t] = triangles[t] && area[piece_of(mesh.triangles[3 * t])] >= kSmallest;
+  return triangles;
+}
+
+// The part that bone covers, or the open part: of dura, the face towards the brain. It would hide
+// bone that is cut from that side, since nothing cuts dura.
+void add_part(const surface::Mesh& mesh, const std::vector<bool>& hidden, bool open, double voxel,
+              volume::TissueId tissue, std::vector<SoftStructure>& out) {
   std::map<std::array<int, 3>, Cube> cubes;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
     const std::uint32_t* corner = &mesh.triangles[t];
-    const bool hidden = under_bone[corner[0]] || under_bone[corner[1]] || under_bone[corner[2]];
-    if (hidden == open) continue;
+    if (hidden[t / 3] == open) continue;
     const Eigen::Array3i at =
         (mesh.vertices[corner[0]].p.cast<double>() / kCube).array().floor().cast<int>();
     cubes[{at.x(), at.y(), at.z()}].add(mesh, corner);
   }
   for (const auto& [at, cube] : cubes) {
-    out.push_back(structure_of(cube.mesh, open, bone.grid().voxel));
+    out.push_back(structure_of(cube.mesh, open, voxel));
     out.back().tissue = tissue;
   }
 }
@@ -155,7 +187,9 @@ Status add_soft(Scene& scene, const volume::Bone& bone, Progress& progress) {
     if (bone.tissues()[tissue].name.find("marrow") != std::string::npos) continue;
     const Result<surface::Mesh> mesh = surface::label_surface(bone, tissue, quiet);
     if (!mesh) return mesh.error();
-    for (const bool open : {false, true}) add_part(bone, *mesh, open, tissue, scene.soft);
+    const std::vector<bool> hidden = covered_triangles(bone, *mesh);
+    for (const bool open : {false, true})
+      add_part(*mesh, hidden, open, bone.grid().voxel, tissue, scene.soft);
   }
   return fine();
 }

@@ -18,9 +18,10 @@ namespace {
 constexpr double kSoftBorder = 6;  // of the grid, over which all fades [cell]
 constexpr int kRoom = 12;          // least distance of the tool from the border of the grid [cell]
 constexpr double kKnown = 0.3;     // longest pause across which the tool's path is interpolated [s]
-constexpr double kStep = 0.1;      // time step of the blood: one cell per step [s]
+constexpr double kStep = 0.1;      // time step of blood and paste: one cell per step [s]
 constexpr double kLongest = 40;    // of the path, then its length begins again at 0 [m]
 constexpr float kLeast = 1e-3F;    // less than this counts as nothing
+constexpr float kPaste = 0.2F;     // dust is a paste where it is wetter than this
 
 // Distance of a point from the line between two points.
 double distance(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -54,7 +55,7 @@ void Wound::forget() {
   before_.clear();
   up_.reset();
   airborne_ = flowed_ = 0;
-  bleeds_ = false;
+  bleeds_ = pasty_ = false;
   stained_at_ = -1e9;
 }
 
@@ -149,7 +150,7 @@ void Wound::see(const Tick& tick) {
     if (tick.irrigated) soak(tick, from, seconds);
   }
   if (airborne_ > 0) settle(tick, seconds);
-  if (bleeds_) bleed(seconds);
+  if (bleeds_ || pasty_) bleed(seconds);
   last_ = tick;
 }
 
@@ -237,17 +238,18 @@ void Wound::cover(const Tick& tick, const Vec3& from) {
 
 void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
   const auto soaks = static_cast<float>(seconds / kSoakTime);
-  const float washed = left_after(seconds, kWashTime);
+  const float washed = left_after(seconds, kWashTime), rinsed = left_after(seconds, kRinseTime);
   each_near(from, tick.tip, tick.radius + kSprayReach, [&](Cell& cell, double d) {
     // less at the edge of the spray
     const double rim = (tick.radius + kSprayReach - d) / (0.4 * kSprayReach);
     const auto most = static_cast<float>(std::min(1.0, rim));
     State& look = cell.look;
     look.wet = std::max(look.wet, std::min(most, look.wet + soaks));
-    for (float* washes : {&look.dust, &look.blood}) {
-      *washes *= 1 - most * (1 - washed);
-      if (*washes < kLeast) *washes = 0;
-    }
+    look.dust *= 1 - most * (1 - rinsed);
+    look.blood *= 1 - most * (1 - washed);
+    for (float* left : {&look.dust, &look.blood})
+      if (*left < kLeast) *left = 0;
+    pasty_ = pasty_ || look.dust > 0;
   });
 }
 
@@ -269,15 +271,17 @@ void Wound::suck(const Vec3& mouth, double radius, double seconds) {
 void Wound::settle(const Tick& tick, double seconds) {
   const double down = airborne_ * (1 - std::exp(-seconds / kSettleTime));
   airborne_ = airborne_ - down < 1e-15 ? 0 : airborne_ - down;
-  if (tick.irrigated || cells_.empty() || down <= 0) return;  // water carries it away
+  if (cells_.empty() || down <= 0) return;
+  const double stays = tick.irrigated ? kPasteShare * down : down;  // water carries the rest away
   const double reach = tick.radius + kDustReach,
-               thickest = 3 * down / (std::numbers::pi * reach * reach);
+               thickest = 3 * stays / (std::numbers::pi * reach * reach);
   each_near(tick.tip, tick.tip, reach, [&](Cell& cell, double d) {
     if (cell.off < 1.2F && d < tick.radius + 1.2 * cell_) return;  // the burr sweeps where it is
     const double thick = thickest * (1 - d / reach);
     const auto hidden = static_cast<float>(1 - std::exp(-thick / kCoverThickness));
     cell.look.dust += (1 - cell.look.dust) * hidden;
   });
+  pasty_ = pasty_ || tick.irrigated;
 }
 
 // ---- blood
@@ -286,7 +290,8 @@ void Wound::bleed(double seconds) {
   flowed_ += std::min(seconds, 5 * kStep);
   while (flowed_ >= kStep) {
     flowed_ -= kStep;
-    flow(kStep);
+    if (bleeds_) flow(kStep);
+    if (pasty_) run_paste(kStep);
   }
 }
 
@@ -332,6 +337,46 @@ void Wound::flow(double seconds) {
       for (std::size_t w = 0; w < count; ++w)
         ways[w].first->look.blood += more * ways[w].second / sum;
     cells_[from].look.blood = 1;  // where there is no way on, it runs off unseen
+    low_ = low_.cwiseMin(at - Ijk::Ones());
+    high_ = high_.cwiseMax(at + Ijk::Constant(2));
+  }
+}
+
+// Dust in water creeps down the surface, the faster the steeper it is; where it is flat it lies.
+void Wound::run_paste(double seconds) {
+  pasty_ = false;
+  running_.clear();
+  for (int k = low_.z(); k < high_.z(); ++k)
+    for (int j = low_.y(); j < high_.y(); ++j)
+      for (int i = low_.x(); i < high_.x(); ++i) {
+        const Cell& cell = cells_[index(i, j, k)];
+        if (cell.look.dust <= kLeast || cell.look.wet < kPaste) continue;
+        pasty_ = true;
+        const bool inside = std::min({i, j, k}) > 0 && std::max({i, j, k}) + 1 < kEdge;
+        if (cell.skin && inside) running_.push_back(index(i, j, k));
+      }
+  const Vec3 down = -up_.value_or(Vec3::UnitZ());
+  const auto share = static_cast<float>(1 - std::exp(-seconds / kPasteTime));
+  for (const std::size_t from : running_) {
+    const auto n = static_cast<int>(from);
+    const Ijk at(n % kEdge, n / kEdge % kEdge, n / (kEdge * kEdge));
+    Cell* best = nullptr;
+    float steepest = 0.3F;  // the sine of the slope on which it stays
+    for (int way = 0; way < 27; ++way) {
+      const Ijk by(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
+      if (way == 13) continue;
+      Cell& to = cells_[index(at.x() + by.x(), at.y() + by.y(), at.z() + by.z())];
+      const auto falls = static_cast<float>(by.cast<double>().normalized().dot(down));
+      if (!to.skin || falls <= steepest) continue;
+      best = &to;
+      steepest = falls;
+    }
+    if (best == nullptr) continue;
+    State &here = cells_[from].look, &there = best->look;
+    const float runs = share * steepest * here.dust * (1 - there.dust);
+    here.dust -= runs;
+    there.dust += runs;
+    there.wet = std::max(there.wet, 0.7F * here.wet);  // it takes its water with it
     low_ = low_.cwiseMin(at - Ijk::Ones());
     high_ = high_.cwiseMax(at + Ijk::Constant(2));
   }

@@ -10,7 +10,8 @@
 //   fresh   bone that was just cut; fades within kDullTime
 //   wet     bone that coolant reaches; dries within kDryTime
 //   dust   bone that is cut dry goes into the air as dust and settles within kDustReach of the tool
-//           on faces that point up; coolant washes it away; the burr sweeps its own cut clean
+//           on faces that point up; the burr sweeps its own cut clean. Coolant makes a paste of it,
+//           which lies on steeper faces too and runs down; coolant slowly rinses it away
 //   ridges  fine parallel ridges where a fluted burr cut, across its way; a diamond burr polishes them
 //           away. They stay
 //   blood   comes where a bleeding tissue was opened, runs from cell to cell along the surface,
@@ -48,7 +49,10 @@ class Wound {
                                                // [m]
   // thickness that hides all but 1/e of the bone [m]
   static constexpr double kCoverThickness = 0.05e-3;
-  static constexpr double kWashTime = 0.3;       // until 1/e is left under coolant [s]
+  static constexpr double kWashTime = 0.3;    // until 1/e of blood is left under coolant [s]
+  static constexpr double kRinseTime = 4;     // the same of dust, which is a paste then [s]
+  static constexpr double kPasteShare = 0.4;  // of dust made under coolant; the rest goes with it
+  static constexpr double kPasteTime = 1.5;   // until 1/e has run on where it is steep [s]
   static constexpr double kSuctionReach = 3e-3;  // reach of suction from the tube's mouth,
                                                  // beyond its radius [m]
   static constexpr double kSuctionTime = 0.15;   // until 1/e is left at the mouth [s]
@@ -130,6 +134,7 @@ class Wound {
   void settle(const Tick& tick, double seconds);
   void bleed(double seconds);
   void flow(double seconds);
+  void run_paste(double seconds);
   void look_at(const SkinMesh& mesh);
   template <class Change>
   void each_near(const math::Vec3& a, const math::Vec3& b, double reach, const Change& change);
@@ -151,7 +156,8 @@ class Wound {
   std::optional<math::Vec3> up_;
   double airborne_ = 0;               // [m^3]
   bool bleeds_ = false;               // some cell is open
-  double flowed_ = 0;                 // time for which blood must still be moved [s]
+  bool pasty_ = false;                // some cell may hold a paste
+  double flowed_ = 0;                 // time for which blood and paste must still be moved [s]
   std::vector<std::size_t> running_;  // cells, for flow()
   double stained_at_ = -1e9;
 };

@@ -105,9 +105,10 @@ void Wound::stain(Scene& scene, int patch) {
   for (const SkinVertex& vertex : entry.mesh->vertices()) {
     const Vec3 p = vertex.p.cast<double>();
     State state = at(p);
-    // dust slides off steep faces, and none lies under an overhang
+    // dust slides off steep faces, and none lies under an overhang; a paste sticks
     if (state.dust > 0)
-      state.dust *= std::clamp(normal_of(vertex).dot(up) / 0.6F + 0.3F, 0.0F, 1.0F);
+      state.dust *=
+          std::clamp(normal_of(vertex).dot(up) / 0.6F + 0.3F + 0.6F * state.wet, 0.0F, 1.0F);
     stains.push_back({level(state.fresh), level(state.wet), level(state.dust), level(state.blood),
                       ridges_at(p, 1 - state.dust)});
     any = any || stains.back() != Stain{};

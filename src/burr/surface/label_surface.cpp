@@ -16,13 +16,15 @@ using volume::kBrickVoxels;
 
 namespace {
 
-// half width of the filter, and one for the corners that are closed before [voxel]
-constexpr int kApron = 3;
+// half width of the filter, and one each for corners and stairs that are closed before [voxel]
+constexpr int kApron = 4;
 constexpr int kEdge = kBrickEdge + 2 * kApron;  // of a brick with its apron
 constexpr float kSure = 0.12F;                  // least distance of a voxel from one half
 constexpr int kRounds = 40;                     // of smoothing
 constexpr float kIn = 0.5F, kOut = -0.52F;      // its steps: shrinking, then growing again
 constexpr float kFarthest = 0.5F;               // that a vertex may move [voxel]
+constexpr double kThin = 2.5;                   // a strand thinner than this [voxel] ...
+constexpr float kThinFarthest = 1;  // ... follows its middle rather than its voxels [voxel]
 constexpr int kNormalRounds = 10;
 
 using Near = std::array<float, static_cast<std::size_t>(kEdge* kEdge* kEdge)>;
@@ -86,6 +88,28 @@ void close_stairs(Near& near) {
       }
 }
 
+// The same where two voxels touch only by a corner, as in a strand one voxel thick that runs askew:
+// the two voxels between them that come first along x and y.
+void close_corners(Near& near) {
+  const Near was = near;
+  for (int z = 1; z < kEdge - 1; ++z)
+    for (int y = 1; y < kEdge - 1; ++y)
+      for (int x = 1; x < kEdge - 1; ++x) {
+        const int n = (z * kEdge + y) * kEdge + x;
+        const auto label = [&](int by) { return was[static_cast<std::size_t>(n + by)] > 0; };
+        if (!label(0)) continue;
+        for (int way = 0; way < 4; ++way) {
+          const int dx = (way & 1) != 0 ? 1 : -1, dy = ((way & 2) != 0 ? 1 : -1) * kEdge,
+                    dz = kEdge * kEdge;
+          const bool alone = label(dx + dy + dz) && !label(dx) && !label(dy) && !label(dz) &&
+                             !label(dx + dy) && !label(dx + dz) && !label(dy + dz);
+          if (!alone) continue;
+          near[static_cast<std::size_t>(n + dx)] = 1;
+          near[static_cast<std::size_t>(n + dx + dy)] = 1;
+        }
+      }
+}
+
 // One pass of the filter along an axis. The outermost voxels along it are not used afterwards.
 void filter(Near& near, std::size_t step) {
   const std::size_t reach = 2 * step;
@@ -103,6 +127,7 @@ void fill(const volume::Bone& bone, volume::TissueId tissue, volume::BrickIndex 
   thread_local Near near, sharp;
   const Ijk first = bone.brick_ijk(brick) - Ijk::Constant(kApron);
   gather(bone, tissue, first, near);
+  close_corners(near);
   close_stairs(near);
   sharp = near;
   for (const std::size_t step :
@@ -153,6 +178,21 @@ void towards_mean(const Around& near, float share, std::vector<Vec3f>& values,
   for (std::size_t v = 0; v < values.size(); ++v) values[v] += share * (means[v] - values[v]);
 }
 
+// The diameter of a long round body with this volume and area [m].
+double thickness(const Mesh& mesh) {
+  const math::Vec3 origin = mesh.vertices.front().p.cast<double>();
+  double volume = 0, area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const auto at = [&](std::size_t c) -> math::Vec3 {
+      return mesh.vertices[mesh.triangles[t + c]].p.cast<double>() - origin;
+    };
+    const math::Vec3 across = (at(1) - at(0)).cross(at(2) - at(0));
+    volume += at(0).dot(across) / 6;
+    area += across.norm() / 2;
+  }
+  return area > 0 ? 4 * volume / area : 0;
+}
+
 void smoothen(Mesh& mesh, double voxel) {
   const Around near = around(mesh);
   // about a point of the mesh, where single precision is finest
@@ -160,7 +200,8 @@ void smoothen(Mesh& mesh, double voxel) {
   std::vector<Vec3f> start, p, means(mesh.vertices.size());
   for (const Vertex& vertex : mesh.vertices) start.emplace_back(vertex.p - origin);
   p = start;
-  const float farthest = kFarthest * static_cast<float>(voxel);
+  const bool thin = thickness(mesh) < kThin * voxel;
+  const float farthest = (thin ? kThinFarthest : kFarthest) * static_cast<float>(voxel);
   for (int round = 0; round < kRounds; ++round) {
     towards_mean(near, kIn, p, means);
     towards_mean(near, kOut, p, means);

@@ -55,6 +55,7 @@ class Strip {
 
   [[nodiscard]] float x() const { return x_ + kPad * u_; }
   [[nodiscard]] float y() const { return y_; }
+  [[nodiscard]] float unit() const { return u_; }
 
  private:
   const Ui& ui_;
@@ -170,6 +171,31 @@ void scale_bar(const Ui& ui, const HudState& s) {
   }
 }
 
+bool fits(const Ui& ui, const std::string& text, float wide) {
+  return ui.width_of(Letter::small, text) < wide;
+}
+
+// The text, or as much of its beginning as fits, by whole letters, with dots.
+std::string shortened(const Ui& ui, std::string text, float wide) {
+  if (fits(ui, text, wide)) return text;
+  const auto inside_letter = [&text] {
+    return (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U;
+  };
+  while (!text.empty() && !fits(ui, text + "...", wide)) {
+    while (text.size() > 1 && inside_letter()) text.pop_back();
+    text.pop_back();
+  }
+  return text + "...";
+}
+
+// The text in full while the mouse is over the cell that begins here.
+void tip_over(const Strip& strip, float wide, const std::string& text) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (mouse.x > strip.x() && mouse.x < strip.x() + wide && mouse.y > strip.y() &&
+      mouse.y < strip.y() + kStrip * strip.unit())
+    ImGui::SetTooltip("%s", text.c_str());
+}
+
 // "40 000"
 std::string thousands(double value) {
   const auto whole = static_cast<long>(std::round(value));
@@ -273,7 +299,9 @@ void draw_hud(Ui& ui, const HudState& s) {
     // the whole sentence if it fits, otherwise the name alone
     const std::string name = s.nearest->name.substr(0, s.nearest->name.find(" ("));
     const std::string whole = say(Word::nearest, name);
-    strip.title(ui.width_of(Letter::small, whole) < 142 * u ? whole : name);
+    constexpr float kRoom = 142;  // [points]
+    strip.title(fits(ui, whole, kRoom * u) ? whole : shortened(ui, name, kRoom * u));
+    if (!fits(ui, name, kRoom * u)) tip_over(strip, 160 * u, whole);
     const double mm = 1e3 * s.nearest->distance;
     const std::string value = fmt::format("{:.1f}", mm);
     const ImU32 shade = mm < 1 ? ink::kBad : mm < 2 ? ink::kWarn : ink::kText;

@@ -214,7 +214,9 @@ void Mill::leave() {
 }
 
 void Mill::toggle_menu(Menu menu) {
-  if (menu_ == menu)
+  const bool covered = page_open();  // by help or settings: the menu is wanted, not they
+  pages_->close();
+  if (menu_ == menu && !covered)
     menu_.reset();
   else
     menu_ = menu;

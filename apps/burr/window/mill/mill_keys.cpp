@@ -218,8 +218,8 @@ Mill::KeyRows Mill::program_keys() {
        {item_key(
            SDLK_TAB, [](Mill& m) { m.hide_panels(); }, word(Word::help_hide))}},
       {HelpBlock::program,
-       "",
-       Word::help,
+       "F10",
+       Word::menu_all,
        {act_key(SDLK_F1, Action::help), act_key(SDLK_h, Action::help),
         act_key(SDLK_F10, Action::menu)}},
       {HelpBlock::program,

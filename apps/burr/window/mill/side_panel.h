@@ -18,8 +18,8 @@ enum class Leaf { none, task, steps, structures };
 
 // Its place [points]: left edge, width, top of the row with the leaves' names, top of the leaf.
 inline constexpr float kSideLeft = 104, kSideWide = 360, kSideTop = 10, kSideLeafTop = 52;
-// Free above the strip, for a line of text [points].
-inline constexpr float kSideFoot = 44;
+// Free above the strip, for the bar of views with its two rows [points].
+inline constexpr float kSideFoot = 86;
 
 // The names of the leaves that there are, and a cross. The leaf that was pressed; Leaf::none: the
 // cross.

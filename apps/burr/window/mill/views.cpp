@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "burr/render/eye_outside.h"
 #include "burr/render/room.h"
 #include "burr/workshop/opening.h"
 
@@ -121,7 +122,11 @@ void Views::dress(render::Scene& scene) {
   }
 }
 
-void Views::look(render::Scene& scene) const {
+void Views::look(render::Scene& scene) {
+  // an endoscope belongs into hollows
+  if (kind_ != ViewKind::endoscope && !render::same(scene.camera, seen_))
+    render::keep_eye_outside(scene);
+  seen_ = scene.camera;
   // in see-through bone, and from beside or behind it, the drape would only hide
   const bool shown = kind_ == ViewKind::microscope && scene.look.opacity >= 1 && !scene.clip &&
                      scene.camera.backward().dot(outward_) > kFacing;

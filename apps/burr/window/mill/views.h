@@ -33,8 +33,9 @@ class Views {
   void placed(const render::Scene& scene);
   // A step of magnification, nearer with by > 0. False: this is no microscope.
   bool magnify(double by, render::Scene& scene);
-  // Call it in each picture: whether the drape stands in the way of this eye.
-  void look(render::Scene& scene) const;
+  // Call it in each picture: whether the drape stands in the way of this eye, and whether the eye got
+  // into bone.
+  void look(render::Scene& scene);
   // Takes light and drape off the scene.
   void end(render::Scene& scene) const;
 
@@ -50,6 +51,7 @@ class Views {
   std::shared_ptr<const render::Drape> drape_;  // made when it is first needed
   std::optional<render::Camera> microscope_;    // as it was left
   std::optional<render::Look> bare_;            // the light of the other views
+  render::Camera seen_;                         // that look() has checked
   double wheel_ = 0;                            // part of a step
 };
 

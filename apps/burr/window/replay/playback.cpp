@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -65,6 +66,12 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
     const double height = std::clamp(30 * out.settings.settings.servo.burr.radius, 30e-3, 100e-3);
     out.scene.camera =
         render::view_of_work(out.timeline.work->at, out.timeline.work->outward, height);
+    // the handpiece lies along this axis: look from farther aside
+    constexpr double kAside = 0.5;  // [rad]
+    if (std::abs(out.timeline.work->outward.z()) > 0.7)
+      render::orbit(out.scene.camera, 0, -kAside);
+    else
+      render::orbit(out.scene.camera, kAside, 0);
     render::pan(out.scene.camera, 0, -0.1);  // the lower fifth is covered by the strip
   } else {
     out.scene.camera = render::whole_view(out.scene, 0.3, 0.4, 16.0 / 9);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "burr/render/picture.h"
+#include "burr/scenario/open_lesson.h"
 #include "commands/interrupt.h"
 #include "window/mill/export_page.h"
 #include "window/mill/hud.h"
@@ -21,6 +22,7 @@
 #include "window/replay/replay_view.h"
 #include "window/replay/split_view.h"
 #include "window/replay/timeline_panel.h"
+#include "window/shell/anatomy.h"
 #include "window/shell/file_dialog.h"
 #include "window/shell/help.h"
 #include "window/shell/words.h"
@@ -38,11 +40,14 @@ constexpr double kShift = 0.5;                  // of the second recording, per 
 class Watch {
  public:
   Watch(Desk& desk, Recorded& recorded, const WatchOptions& options)
-      : desk_(desk), recorded_(recorded), scene_(recorded.scene), options_(options) {}
+      : desk_(desk), recorded_(recorded), scene_(recorded.scene), options_(options) {
+    take_titles();
+  }
 
   Result<Closed> run();
 
  private:
+  void take_titles() const;
   void take_events();
   void key(const SDL_Keysym& pressed);
   void telling_key(SDL_Keycode sym);
@@ -105,6 +110,14 @@ class Watch {
   Clock::time_point noted_{};
   double stop_at_ = 0;  // playing ends there [s]
 };
+
+// The names of structures are those of the recorded case.
+void Watch::take_titles() const {
+  take_titles_of(nullptr);
+  const auto& info = recorded_.player->info().work_case;
+  if (!info) return;
+  if (const auto lesson = scenario::parse_lesson(info->text, info->name)) take_titles_of(&*lesson);
+}
 
 Result<Closed> Watch::run() {
   desk_.page = Page::replay;
@@ -178,8 +191,8 @@ Result<Closed> Watch::run() {
 Status Watch::show() {
   // dust would lie over the colours
   const bool effects = desk_.settings.effects && !(comparison_ && compare_ == Compare::colours);
-  first_->look(effects, now_.playing);
-  if (second_) second_->look(effects, now_.playing);
+  first_->look(effects, now_.playing, desk_.settings.left_handed);
+  if (second_) second_->look(effects, now_.playing, desk_.settings.left_handed);
   tell();
   const auto over = panels_ || page_open() ? [this] { panels(); } : std::function<void()>();
   Status shown = fine();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "burr/sim/session_words.h"
 #include "burr/tick/mirror_plane.h"
@@ -40,7 +41,18 @@ void ReplayView::want(double t_s) {
   settled_ = 0;
 }
 
-void ReplayView::look(bool effects, bool playing) {
+// A mouse has no orientation: its tool is drawn as a hand would hold it, as while milling.
+void ReplayView::lean_tool(bool left_handed) {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - std::exchange(leaned_, now)).count();
+  const auto& words = recorded_.player->info().words;
+  const auto device = words.find("device");
+  if (device == words.end() || device->second != "mouse") return;
+  render::Burr& burr = scene().burr;
+  burr.world_from_tool = held_.at(scene(), shown_.row.contact.proxy, left_handed, seconds);
+}
+
+void ReplayView::look(bool effects, bool playing, bool left_handed) {
   if (playback_.take(shown_)) {
     settled_ = 0;
     if (effects) live_.see(shown_.changes);
@@ -55,6 +67,7 @@ void ReplayView::look(bool effects, bool playing) {
       removed_ = shown_.row.ledger.removed - shown_.row.ledger.undone;
     }
   }
+  if (scene().burr.visible && shown_.row.tool.radius > 0) lean_tool(left_handed);
   trouble_ = !shown_.trouble.empty()      ? shown_.trouble
              : !recorded_.notices.empty() ? recorded_.notices.front()
                                           : std::string();

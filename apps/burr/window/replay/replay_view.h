@@ -3,7 +3,7 @@
 //
 //     ReplayView side(recorded, software);
 //     each frame:   side.want(t);
-//                   side.look(effects, playing);      // into recorded.scene
+//                   side.look(effects, playing, left_handed);      // into recorded.scene
 //                   ... draw recorded.scene ...
 //                   side.drawn(took_s, redrawn);
 //
@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/render/held_tool.h"
 #include "burr/tool/state.h"
 #include "burr/workshop/live_surface.h"
 #include "window/mill/slices.h"
@@ -32,8 +33,8 @@ class ReplayView {
   // Requests a moment, on the recording's own clock; limited to its start and end.
   void want(double t_s);
   // Puts what is ready into the scene. effects: show the traces of milling. playing: the burr
-  // turns.
-  void look(bool effects, bool playing);
+  // turns. left_handed: how a mouse's tool is drawn.
+  void look(bool effects, bool playing, bool left_handed);
   void drawn(double took_s, double redrawn) { live_.drawn(took_s, redrawn); }
   void show_labels(bool shown);
   void look_plain() {
@@ -63,6 +64,8 @@ class ReplayView {
   [[nodiscard]] const std::string& trouble() const { return trouble_; }  // "": none
 
  private:
+  void lean_tool(bool left_handed);
+
   static constexpr int kSettled = 3;  // pictures without anything new
 
   Recorded& recorded_;
@@ -76,6 +79,8 @@ class ReplayView {
   double wanted_ = -1, force_ = 0, removed_ = 0;
   bool behind_ = false;
   std::string trouble_;
+  render::HeldTool held_;
+  std::chrono::steady_clock::time_point leaned_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point in_time_ = std::chrono::steady_clock::now();
   Playback playback_;  // last: its thread ends before the other members
 };

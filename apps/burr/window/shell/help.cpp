@@ -22,7 +22,7 @@ void block(const Ui& ui, float x, float& y, Word title, const Rows& rows) {
   for (const auto& [keys, what] : rows) {
     ui.write(x, y, Ui::Letter::strong, ink::kText, keys);
     ui.write(x + 168 * u, y, Ui::Letter::body, ink::kDim, word(what));
-    y += 23 * u;
+    y += 22 * u;
   }
   y += 14 * u;
 }

@@ -102,7 +102,8 @@ void main() {
   float through = seen * float(at_rest.y >> 8u & 255u) / 255.0;
   colour.rgb = mix(colour.rgb, under, through * (1.0 - 0.5 * wall));
 #ifdef GRAIN
-  place = at_p * noises_per_m;
+  // turned, so that no plane of the bone shows that the noise repeats
+  place = mat3(0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6) * at_p * noises_per_m;
   grain = texelFetch(tissue_colours, ivec2(tissue, 1), 0).rgb;
 #endif
 #ifdef STAINED

@@ -198,13 +198,23 @@ void Skin::find_box(Block& part, const Scene& scene) const {
       add(scene.patches[p].box);
 }
 
+namespace {
+
+constexpr float kMilky = 0.7F;                     // below this the loss is too small to be seen
+constexpr Colour kLost = {0.11F, 0.125F, 0.175F};  // by enamel, whose shade is then about A2
+
+}  // namespace
+
 void Skin::send_colours() {
   constexpr std::size_t kRow = 256;
   std::array<std::array<std::uint8_t, 4>, 2 * kRow> rows{};
   for (std::size_t t = 0; t < kRow; ++t) {
-    const Colour colour = t < colours_.size() ? colours_[t] : Colour{1, 1, 1};
+    Colour colour = t < colours_.size() ? colours_[t] : Colour{1, 1, 1};
     const Material of = t < materials_.size() ? materials_[t] : Material{};
     const std::uint8_t seen = is_unseen(colour) ? 0 : 255;
+    // light is lost in what it passes through, and more of it than a face reflects
+    const float lost = std::max(0.0F, of.milk - kMilky) / (1 - kMilky);
+    for (std::size_t c = 0; c < colour.size(); ++c) colour[c] *= 1 - lost * kLost[c];
     rows[t] = {unorm(colour[0]), unorm(colour[1]), unorm(colour[2]), unorm(of.gloss)};
     rows[kRow + t] = {unorm(of.grain), unorm(of.pores), unorm(of.milk), seen};
   }
