@@ -53,6 +53,8 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"repair", "s.mcap --out whole.mcap", "leaves s.mcap as it is"},
     {"materials", "", "the built-in table"},
     {"materials", "--materials mine.toml --json", "with your own values"},
+    {"tools", "", "the built-in rack"},
+    {"tools", "--tools mine.toml --picture tools.png", "with your own, as a picture"},
     {"fit", "force.csv --out mine.toml", "constants from a force log"},
     {"fit", "a.mcap b.mcap --material femur", "from recordings"},
     {"case check", "temporal-bone", "a built-in case"},

@@ -81,16 +81,22 @@ struct Material {
   [[nodiscard]] bool operator==(const Material&) const = default;
 };
 
+// A tool of another shape: drawn in place of head, shaft and handpiece. Frame: of the tool [m]
+struct ToolLook {
+  surface::Mesh cuts, rubs;  // render/tool_mesh.h
+};
+
 // The tool in the hand: a fluted or grainy ball on a shaft, which extends along the tool's +z into a
 // tapered handpiece.
 struct Burr {
   bool visible = false;
-  math::Pose world_from_tool;    // origin: centre of the head
-  double radius = 2.5e-3;        // of the head [m]
-  double shaft_radius = 1.2e-3;  // [m]
-  double shaft_length = 70e-3;   // of the lines that show the mirrored image [m]
-  double turn = 0;               // of the spindle [rad]
-  bool diamond = false;          // grains in place of flutes
+  math::Pose world_from_tool;             // origin: centre of the head
+  double radius = 2.5e-3;                 // of the head [m]
+  double shaft_radius = 1.2e-3;           // [m]
+  double shaft_length = 70e-3;            // of the lines that show the mirrored image [m]
+  double turn = 0;                        // of the spindle [rad]
+  bool diamond = false;                   // grains in place of flutes
+  std::shared_ptr<const ToolLook> other;  // no round burr; sent again when the pointer changes
 };
 
 struct Marker {

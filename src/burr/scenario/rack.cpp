@@ -305,15 +305,18 @@ Result<Rack> parse_rack(std::string_view text, std::string_view file, const Rack
 }
 
 double cutting_width(const RackTool& tool) {
-  double most = 0;
+  math::Aabb all;
   for (int n = 0; n < tool.tool.count; ++n) {
     const tool::Part& part = tool.tool.parts[static_cast<std::size_t>(n)];
     if (part.role != Role::cuts) continue;
-    const Vec3 across = part.tool_from_part.q.conjugate() * Vec3::UnitX();
-    most = std::max(most, part.tool_from_part.p.x() + tool::support(part.shape, across));
-    most = std::max(most, tool::support(part.shape, -across) - part.tool_from_part.p.x());
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 way = Vec3::Unit(axis), in_part = part.tool_from_part.q.conjugate() * way;
+      const double middle = part.tool_from_part.p[axis];
+      all.hi[axis] = std::max(all.hi[axis], middle + tool::support(part.shape, in_part));
+      all.lo[axis] = std::min(all.lo[axis], middle - tool::support(part.shape, -in_part));
+    }
   }
-  return 2 * most;
+  return std::max(all.hi.x() - all.lo.x(), all.hi.y() - all.lo.y());
 }
 
 }  // namespace burr::scenario

@@ -44,7 +44,7 @@ struct Rack {
 [[nodiscard]] Result<Rack> parse_rack(std::string_view text, std::string_view file,
                                       const Rack& base);
 
-// Largest distance of a cutting part's surface from the tool's axis, times two.  [m]
+// How wide the cutting parts are across the tool's axis, in the wider of x and y.  [m]
 [[nodiscard]] double cutting_width(const RackTool& tool);
 
 }  // namespace burr::scenario

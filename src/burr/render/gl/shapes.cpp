@@ -221,7 +221,54 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   return pieces_;
 }
 
+namespace {
+
+void send_mesh(Shape& shape, const surface::Mesh& mesh) {
+  std::vector<Eigen::Vector3f> points, normals;
+  for (const surface::Vertex& vertex : mesh.vertices) {
+    points.push_back(vertex.p);
+    normals.push_back(vertex.n);
+  }
+  std::vector<std::uint16_t> triangles;
+  for (const std::uint32_t corner : mesh.triangles)
+    triangles.push_back(static_cast<std::uint16_t>(corner));
+  shape.send(points, normals, triangles);
+}
+
+// Boxes around the mesh, one above the other along z.
+std::vector<math::Aabb> boxes_around(const surface::Mesh& mesh) {
+  constexpr double kHigh = 8e-3;  // of one [m]
+  math::Aabb all;
+  for (const surface::Vertex& vertex : mesh.vertices) all.extend(vertex.p.cast<double>());
+  std::vector<math::Aabb> boxes;
+  if (all.empty()) return boxes;
+  const int count = std::max(1, static_cast<int>(all.extent().z() / kHigh));
+  for (int n = 0; n < count; ++n) {
+    math::Aabb box = all;
+    box.lo.z() = all.lo.z() + all.extent().z() * n / count;
+    box.hi.z() = all.lo.z() + all.extent().z() * (n + 1) / count;
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+}  // namespace
+
+void Shapes::add_other(const Burr& burr) {
+  if (other_ != burr.other) {
+    other_ = burr.other;
+    send_mesh(cuts_, other_->cuts);
+    send_mesh(rubs_, other_->rubs);
+    cuts_boxes_ = boxes_around(other_->cuts);
+    rubs_boxes_ = boxes_around(other_->rubs);
+  }
+  const Eigen::Matrix4d at = placed(burr.world_from_tool, 1, 1);
+  if (!cuts_boxes_.empty()) add(cuts_, at, kSteel, true, false, cuts_boxes_);
+  if (!rubs_boxes_.empty()) add(rubs_, at, kSatin, true, false, rubs_boxes_);
+}
+
 void Shapes::add_tool(const Burr& burr) {
+  if (burr.other != nullptr) return add_other(burr);
   make_shaft(burr);
   math::Pose turned = burr.world_from_tool;
   turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));

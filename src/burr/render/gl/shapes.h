@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "burr/render/gl/objects.h"
@@ -51,11 +52,15 @@ class Shapes {
            bool steel, bool on_top, const std::vector<math::Aabb>& boxes_shape);
 
   void add_tool(const Burr& burr);
+  void add_other(const Burr& burr);
   void add_rod(const Rod& rod);
   void add_mirrored(const Mirrored& mirrored, const Burr& burr);
 
   Shape ball_, head_, grains_, rod_, tip_, shaft_;
   Shape collet_, nose_, grip_, tail_;  // of the handpiece
+  Shape cuts_, rubs_;                  // of a tool that is no round burr
+  std::shared_ptr<const ToolLook> other_;
+  std::vector<math::Aabb> cuts_boxes_, rubs_boxes_;
   bool made_ = false;
   double shaft_of_[2] = {0, 0};  // radius and shaft_radius of the present shaft
   std::vector<Piece> pieces_;
