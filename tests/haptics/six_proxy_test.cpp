@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "burr/haptics/proxy.h"
 #include "burr/math/rotation.h"
 #include "burr/math/turn.h"
+#include "burr/rt/simd.h"
 #include "scene.h"
 #include "support/rt_guard.h"
 
@@ -250,6 +252,31 @@ TEST(SixProxy, EnergyFallsWhileTheHandIsStill) {
     EXPECT_LE(v, last + 1e-12) << n;  // 1e-6 mm^2
     last = v;
   }
+}
+
+// A replay must give the same bits on every processor.
+TEST(SixProxy, GivesTheSameBitsOnEveryInstructionSet) {
+  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const rt::Simd best = rt::simd();
+  std::vector<SixTouch> first;
+  for (const rt::Simd set : {rt::Simd::scalar, rt::Simd::avx2, rt::Simd::avx512}) {
+    rt::force_simd(set);
+    SixProxy proxy(scene.surface, burr(1 * kMm), {}, {{0, 0, 30 * kMm}, Quat::Identity()});
+    for (std::size_t n = 0; n < 300; ++n) {
+      const double t = 0.01 * static_cast<double>(n);
+      const SixTouch touch = proxy.step({{2 * kMm * std::sin(t), 0, (12 - 3 * t) * kMm},
+                                         turn_about({1, 0.4, 0}, 0.5 * std::sin(2 * t))});
+      if (set == rt::Simd::scalar) {
+        first.push_back(touch);
+        continue;
+      }
+      ASSERT_EQ(touch.stretch, first[n].stretch) << n;
+      ASSERT_EQ(touch.turn, first[n].turn) << n;
+      ASSERT_EQ(touch.candidates, first[n].candidates) << n;
+    }
+  }
+  rt::force_simd(best);
+  EXPECT_GT(first.back().active, 0);
 }
 
 TEST(SixProxy, TakesNeitherMemoryNorLock) {
