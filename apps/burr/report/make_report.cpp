@@ -6,8 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <future>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "burr/base/version.h"
@@ -36,7 +37,11 @@ std::string title_of(const Scored& scored) {
 
 std::string file_hash(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  std::string bytes(none ? 0 : static_cast<std::size_t>(size), '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
   return record::hex(scenario::text_hash(bytes));
 }
 
@@ -244,10 +249,10 @@ std::vector<ReportPart> parts_of(const Scored& scored, const ReportSettings& set
   return parts;
 }
 
-std::vector<TextPair> hashes_of(const Scored& scored) {
+std::vector<TextPair> hashes_of(const Scored& scored, const std::string& of_file) {
   const record::SessionInfo& info = scored.judged.player->info();
   const auto labels = info.identity ? info.identity->labels_hash : 0;
-  return {{word(Word::report_hash_recording), file_hash(scored.judged.player->path())},
+  return {{word(Word::report_hash_recording), of_file},
           {word(Word::report_case), record::hex(scenario::text_hash(scored.judged.work.text))},
           {word(Word::report_rubric), record::hex(scored.judged.rubric.text_hash)},
           {word(Word::report_hash_labels),
@@ -315,7 +320,6 @@ Report common(const Scored& scored, const ReportSettings& settings) {
   if (!scored.judged.lesson.approach.empty())
     report.towards = scored.judged.lesson.approach.front();
   report.small = small_of(scored);
-  report.hashes = hashes_of(scored);
   return report;
 }
 
@@ -337,6 +341,8 @@ Status comparable(const Scored& a, const Scored& b) {
 Result<Report> report_on(Scored& scored, const ReportSettings& settings, Progress& progress) {
   if (settings.beside != nullptr)
     if (const Status same = comparable(scored, *settings.beside); !same) return same.error();
+  // a recording may be large; meanwhile the pictures are drawn
+  auto of_file = std::async(std::launch::async, file_hash, scored.judged.player->path());
   Report report = common(scored, settings);
   report.title = word(Word::report_title);
   report.unfinished = unfinished_of(scored.score);
@@ -363,6 +369,7 @@ Result<Report> report_on(Scored& scored, const ReportSettings& settings, Progres
                                           report, false, settings, progress);
         !drawn)
       return drawn.error();
+  report.hashes = hashes_of(scored, of_file.get());
   return report;
 }
 
@@ -382,7 +389,8 @@ Result<Report> comparison(Scored& a, Scored& b, const ReportSettings& settings,
   report.lines.back().whose = "B: " + second;
   report.head = joined(std::move(report.head), head_of(b));
   report.head.insert(report.head.begin(), {{"A", first}, {"B", second}});
-  report.hashes = joined(std::move(report.hashes), hashes_of(b));
+  report.hashes = joined(hashes_of(a, file_hash(a.judged.player->path())),
+                         hashes_of(b, file_hash(b.judged.player->path())));
   report.commands = {fmt::format("burr score {}{}", first, with_rubric(settings)),
                      fmt::format("burr score {}{}", second, with_rubric(settings))};
   for (const auto& [scored, whose] : {std::pair{&a, "A"}, std::pair{&b, "B"}}) {

@@ -7,7 +7,7 @@
 // vol is the volume of a voxel from its field (volume/volume_of.h); the share of a voxel in R comes
 // from R's depth by the same function. So a border of R across solid bone costs nothing; where the
 // cut ends exactly at the border of R, about 0.15 voxel of it counts as missed; `error` is 0.23.
-// Added material counts as negative. Thread: any; uses one. Cost: one pass over the changed bricks
+// Added material counts as negative. Thread: any; uses two. Cost: one pass over the changed bricks
 // and over the bricks that the region touches.
 #pragma once
 

@@ -28,19 +28,45 @@ void Packer::pack(ByteSpan bytes, std::vector<std::uint8_t>& out) {
   out.resize(before + took);
 }
 
+namespace {
+
+struct Unpacker {
+  ZSTD_DCtx* zstd = ZSTD_createDCtx();
+  Unpacker() = default;
+  Unpacker(const Unpacker&) = delete;
+  Unpacker& operator=(const Unpacker&) = delete;
+  ~Unpacker() { ZSTD_freeDCtx(zstd); }
+};
+
+// A promise of more is not believed before the bytes are there: unpack() [byte].
+constexpr std::uint64_t kBelieved = std::uint64_t{1} << 25;
+
+// The whole frame at once, into memory of the promised size.
+bool unpack_at_once(ZSTD_DCtx* zstd, ByteSpan packed, std::size_t size,
+                    std::vector<std::uint8_t>& out) {
+  if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size()) return false;
+  out.resize(size);
+  const std::size_t took =
+      ZSTD_decompressDCtx(zstd, out.data(), out.size(), packed.data(), packed.size());
+  return ZSTD_isError(took) == 0U && took == size;
+}
+
+}  // namespace
+
 bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out) {
   constexpr std::size_t kStep = std::size_t{1} << 20;
   constexpr std::uint64_t kMost = std::uint64_t{1} << 34;
-  constexpr int kWindowLog = 27;  // 128 MiB, zstd's own default limit
-  struct Free {
-    void operator()(ZSTD_DCtx* zstd) const { ZSTD_freeDCtx(zstd); }
-  };
-  const std::unique_ptr<ZSTD_DCtx, Free> zstd(ZSTD_createDCtx());
-  if (!zstd) return false;
-  ZSTD_DCtx_setParameter(zstd.get(), ZSTD_d_windowLogMax, kWindowLog);
+  constexpr int kWindowLog = 27;                // 128 MiB, zstd's own default limit
+  static thread_local const Unpacker unpacker;  // to make one costs as much as to unpack 50 kB
+  ZSTD_DCtx* const zstd = unpacker.zstd;
+  if (zstd == nullptr) return false;
+  ZSTD_DCtx_reset(zstd, ZSTD_reset_session_and_parameters);
+  ZSTD_DCtx_setParameter(zstd, ZSTD_d_windowLogMax, kWindowLog);
 
   out.clear();
   if (size >= kMost) return false;
+  if (size > 0 && size <= kBelieved)
+    return unpack_at_once(zstd, packed, static_cast<std::size_t>(size), out);
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
   std::size_t filled = 0;
   for (;;) {
@@ -48,7 +74,7 @@ bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out)
     if (filled == out.size())
       out.resize(std::min(static_cast<std::size_t>(size) + 1, std::max(2 * filled, kStep)));
     ZSTD_outBuffer to{out.data(), out.size(), filled};
-    const std::size_t more = ZSTD_decompressStream(zstd.get(), &to, &in);
+    const std::size_t more = ZSTD_decompressStream(zstd, &to, &in);
     if (ZSTD_isError(more) != 0U) return false;
     filled = to.pos;
     if (filled > size) return false;
