@@ -280,6 +280,17 @@ TEST_F(WrongShape, WhoClearsCariesDownToThePulpLosesItsRoof) {
   EXPECT_EQ(unmet(), (std::set<std::string>{"roof.kept", "pulp.covered"}));
 }
 
+TEST_F(WrongShape, WhoLeavesNoDentineOverThePulpBreaksTheGate) {
+  open("tooth", 0.1);
+  cut([](Lesson& plan) {
+    scenario::CaseRegion& caries = region_of(plan, "deep caries");
+    caries.take.erase(caries.take.begin());  // what keeps away from the pulp
+    caries.add.front().points.back().z() -= 1.2 * kMm;
+    plan.reference->leave.clear();
+  });
+  EXPECT_TRUE(unmet().contains("pulp.not-bare"));
+}
+
 TEST_F(WrongShape, WhoLeavesCariesAtOneSideLosesBothItemsAboutIt) {
   open("tooth", 0.1);
   cut([](Lesson& plan) {
