@@ -51,6 +51,22 @@ TEST_F(ExportPart, EveryEndingGivesAFileAndRemovedAndLeftAddUp) {
   EXPECT_EQ(files(), 8);
 }
 
+// The way back: what was removed before is what is added now.
+TEST_F(ExportPart, WhatWasAddedIsOneClosedPiece) {
+  const auto none = to("a.stl", {.part = Part::added});
+  ASSERT_FALSE(none.ok());
+  EXPECT_EQ(none.error().trouble, Trouble::data);
+  EXPECT_EQ(files(), 0);
+  const auto removed = to("a.stl", {.part = Part::removed});
+  std::swap(before, now);
+  const auto added = to("b.stl", {.part = Part::added, .frame = Frame::print});
+  ASSERT_TRUE(removed.ok() && added.ok());
+  EXPECT_EQ(added.value().volume, removed.value().volume);
+  EXPECT_EQ(added.value().triangles, removed.value().triangles);
+  EXPECT_EQ(added.value().shells.parts, 1U);
+  EXPECT_NEAR(added.value().shells.volume / added.value().volume, 1, 0.02);
+}
+
 TEST_F(ExportPart, WhatCannotBeIsSaidBeforeTheWork) {
   const auto trouble = [&](const char* name, ExportOptions options) {
     const Status status = check_export(path(name), options);

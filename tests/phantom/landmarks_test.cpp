@@ -13,6 +13,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/phantom/phantoms.h"
+#include "burr/volume/sample.h"
 
 namespace burr::phantom {
 namespace {
@@ -246,6 +247,34 @@ TEST(Landmarks, TheGradesOfCariesLieInEachOther) {
   EXPECT_NEAR(soft - leathery, 0.35, 0.11);
   EXPECT_NEAR(leathery - firm, 0.35, 0.11);
   EXPECT_GT(firm, 2.2 + 0.5) << "dentine over the pulp";
+}
+
+// The defect is empty from its floor to the face that the bone had, and keeps away from the nerve, also
+// from one that lies high.
+TEST(Landmarks, TheDefectOfTheJawIsEmptyFromItsFloorToItsFace) {
+  NoProgress nobody;
+  for (const char* name : {"jaw?defect", "jaw?long,defect,high-nerve"}) {
+    const auto made = phantom(name, 0.4, nobody, 0);
+    ASSERT_TRUE(made);
+    const auto all = landmarks(name);
+    const Landmark& face = landmark(all, "face over the defect");
+    const Vec3 floor = landmark(all, "floor of the defect").points[0];
+    ASSERT_TRUE(face.normal);
+    const Vec3 out = *face.normal;
+    EXPECT_NEAR((face.points[0] - floor).norm(), 2.5e-3, 1e-9);
+    EXPECT_NEAR(volume::depth_at(**made, floor), 0, 0.1e-3);
+    EXPECT_GT(volume::depth_at(**made, floor - 0.5e-3 * out), 0.2e-3);
+    EXPECT_LT(volume::depth_at(**made, floor + 0.5e-3 * out), 0);
+    EXPECT_LT(volume::depth_at(**made, face.points[0]), 0);
+    // beside the defect the face is where the bone's is, as well as a plane can say it
+    const Vec3 beside = face.points[0] + 4.6e-3 * out.cross(Vec3::UnitZ()).normalized();
+    EXPECT_GT(volume::depth_at(**made, beside - 0.6e-3 * out), 0);
+    EXPECT_LT(volume::depth_at(**made, beside + 0.6e-3 * out), 0);
+    double nearest = 1;
+    for (const Vec3& p : landmark(all, "inferior alveolar nerve").points)
+      nearest = std::min(nearest, (p - landmark(all, "middle of the defect").points[0]).norm());
+    EXPECT_GT(nearest - 4.45e-3, 1.5e-3 + 0.7e-3);
+  }
 }
 
 // The planned osteotomy is 5 mm in front of the nerve on the cheek's side, crosses all of the bone, and has

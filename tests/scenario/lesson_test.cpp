@@ -263,6 +263,10 @@ TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {
       {"share = 0.7 }", "share = \"most\" }", "step[1].done.share", "number"},
       {"share = 0.7 }", "region = \"moon\" }", "step.done.region", "\"moon\""},
       {"remove = [\"way\"]", "remove = [\"wey\"]", "reference.remove", "use one of way"},
+      {"remove = [\"way\"]", "remove = [\"way\"]\nfill = [\"gap\"]", "reference.fill",
+       "use one of way"},
+      {"say = \"Close it.\"", "say = \"Close it.\"\nadds = true", "step[2].adds",
+       "needs the region"},
       {"\"nerve\", mm = 1 }", "\"nerve\", mm = -1 }", "reference.leave[1].mm", "above 0"},
       {"[[step]]\nid = \"second\"", "[[stepp]]\nid = \"second\"", "stepp", "not a known field"},
   };

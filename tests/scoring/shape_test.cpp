@@ -260,6 +260,15 @@ TEST_F(WrongShape, AnUnevenFaceLosesEvennessAlone) {
   EXPECT_FALSE(lost.contains("cut.divided"));
 }
 
+TEST_F(WrongShape, ADefectHalfFilledLosesItsShareAndOneFilledTooHighItsLevel) {
+  open("jaw", 0.4);
+  cut([](Lesson& plan) { region_of(plan, "defect").take.front().a.at.x() -= 0.7 * kMm; });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"defect.filled"}));
+  open("jaw", 0.4);
+  cut([](Lesson& plan) { region_of(plan, "defect").take.front().a.at.x() += 0.9 * kMm; });
+  EXPECT_EQ(unmet(), (std::set<std::string>{"defect.level"}));
+}
+
 TEST_F(WrongShape, AWideOpeningLosesTheToothAndTheOutline) {
   open("tooth", 0.1);
   cut([](Lesson& plan) {

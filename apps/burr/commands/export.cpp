@@ -1,4 +1,4 @@
-// `burr export`: the bone, or what was removed, as a mesh or a volume for other programs.
+// `burr export`: the bone, or what was removed or added, as a mesh or a volume for other programs.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -28,7 +28,9 @@ struct Options {
   bool json = false, force = false;
 
   [[nodiscard]] io::ExportOptions what() const {
-    return {part == "removed" ? io::Part::removed : io::Part::bone,
+    return {part == "removed" ? io::Part::removed
+            : part == "added" ? io::Part::added
+                              : io::Part::bone,
             frame == "ras"     ? io::Frame::ras
             : frame == "print" ? io::Frame::print
                                : io::Frame::lps,
@@ -60,9 +62,9 @@ bool is_recording(const std::string& path) {
 
 // A volume as it was opened: nothing has been removed from it.
 Result<Bones> open_plain(const Options& options) {
-  if (options.part == "removed")
+  if (options.part != "bone")
     return error(Trouble::usage,
-                 "nothing has been removed from this volume; give a recording (.mcap)");
+                 "nothing has been removed from this volume, or added; give a recording (.mcap)");
   scenario::Recipe volume = options.volume;
   volume.source = options.source;
   volume.reserve_bricks = 0;
@@ -147,7 +149,8 @@ Status run(const Options& options) {
 }
 
 void add(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("export", "write the bone, or the removed part, to a file");
+  auto* command =
+      app.add_subcommand("export", "write the bone, or the removed or added part, to a file");
   auto options = std::make_shared<Options>();
   command
       ->add_option("source", options->source,
@@ -158,8 +161,8 @@ void add(CLI::App& app, Todo& todo) {
           "--out", options->out,
           "file to write; its ending decides the format: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd")
       ->required();
-  command->add_option("--part", options->part, "what to write: bone or removed")
-      ->check(CLI::IsMember({"bone", "removed"}))
+  command->add_option("--part", options->part, "what to write: bone, removed or added")
+      ->check(CLI::IsMember({"bone", "removed", "added"}))
       ->capture_default_str();
   command
       ->add_option("--frame", options->frame,

@@ -19,6 +19,7 @@
 #include "burr/sim/session.h"
 #include "burr/surgeon/surgeon.h"
 #include "burr/tick/flag_words.h"
+#include "burr/tool/state.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
@@ -88,6 +89,9 @@ class Assistant {
                         consulted.burr->kind == tool::BurrKind::diamond ? 1.0 : 0.0});
       session_.command({tick::CommandKind::burr_radius, consulted.burr->radius});
     }
+    if (consulted.adds)
+      session_.command({tick::CommandKind::tool_mode,
+                        static_cast<double>(*consulted.adds ? tool::Mode::add : tool::Mode::cut)});
     for (const surgeon::SurgeonNote& note : consulted.notes) tell(note, tick);
     if (consulted.eye && diary_ != nullptr) diary_->look({.view = view(*consulted.eye, tick)});
   }

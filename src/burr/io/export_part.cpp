@@ -60,31 +60,36 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
   const Status possible = check_export(path, options);
   if (!possible) return possible.error();
 
-  std::unique_ptr<volume::Bone> removed;
+  std::unique_ptr<volume::Bone> part;
   const volume::Bone* bone = &now;
-  if (options.part == Part::removed) {
+  // what was added is what would be removed on the way back
+  const bool added = options.part == Part::added;
+  const volume::Bone &with = added ? now : before, &without = added ? before : now;
+  if (options.part != Part::bone) {
     progress.report(0, "comparing before and after");
-    auto made = volume::removed_part(before, now);
+    if (added && volume::removed_volume(with, without) <= 0)
+      return error("nothing was added to this bone; export --part bone instead");
+    auto made = volume::removed_part(with, without);
     // on the bone's own grid nothing may be left of a thin layer
-    if (!made && is_mesh_path(path)) made = volume::removed_part(before, now, 2);
+    if (!made && is_mesh_path(path)) made = volume::removed_part(with, without, 2);
     if (!made) return made.error();
-    removed = std::move(*made);
-    bone = removed.get();
+    part = std::move(*made);
+    bone = part.get();
   }
 
   Exported exported{
-      removed != nullptr ? volume::removed_volume(before, now) : volume::volume_of(*bone), 0, {}};
+      part != nullptr ? volume::removed_volume(with, without) : volume::volume_of(*bone), 0, {}};
   Status written = fine();
   if (is_mesh_path(path)) {
     auto mesh = surface::whole_surface(*bone, workers(), progress);
-    // a thin layer falls between the voxels: use a finer grid until the mesh holds the removed
+    // a thin layer falls between the voxels: use a finer grid until the mesh holds the part's
     // volume
-    for (int finer = 2; removed != nullptr && mesh.ok() && finer <= kFinest; ++finer) {
+    for (int finer = 2; part != nullptr && mesh.ok() && finer <= kFinest; ++finer) {
       if (std::abs(surface::shells_of(*mesh).volume / exported.volume - 1) < kVolumeFits) break;
-      auto made = volume::removed_part(before, now, finer);
+      auto made = volume::removed_part(with, without, finer);
       if (!made) break;
-      removed = std::move(*made);
-      bone = removed.get();
+      part = std::move(*made);
+      bone = part.get();
       mesh = surface::whole_surface(*bone, workers(), progress);
     }
     if (!mesh) return mesh.error();

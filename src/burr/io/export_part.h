@@ -1,12 +1,12 @@
-// io/export_part.h - writes the bone, or the part that was removed, to one file; the file's ending
-// chooses the format.
+// io/export_part.h - writes the bone, or the part that was removed or added, to one file; the file's
+// ending chooses the format.
 //
 //     .stl .ply .obj .3mf .glb    its closed surface            (io/write/write_mesh.h)
 //     .seg.nrrd                   a label per tissue            (io/write/write_volume.h)
 //     .nrrd                       the field, or the scan with the cut in it
 //
 // Both bones must be at rest. Thread: one; meshes use a few more. Memory: for a mesh about 130
-// bytes per triangle, for the removed part its bricks.
+// bytes per triangle, for the removed or added part its bricks.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace burr::io {
 
-enum class Part : std::uint8_t { bone, removed };
+enum class Part : std::uint8_t { bone, removed, added };
 
 struct ExportOptions {
   Part part = Part::bone;

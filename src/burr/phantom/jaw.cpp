@@ -41,10 +41,17 @@ constexpr double kKerf = 3 * kMm;
 constexpr double kLean = 8 * M_PI / 180;
 constexpr double kRaised = 2.5 * kMm;  // of a high nerve
 
+// The defect is a part of a ball about a point outside the bone: 8 mm wide and 2.5 mm deep.
+constexpr double kDefectRadius = 4.45 * kMm, kDefectDepth = 2.5 * kMm;
+const Vec3 kDefectFace = at_mm(5.3, 4, -20.5);                // where the bone's face was
+const Vec3 kDefectOut = Vec3(0.986, -0.167, 0).normalized();  // across that face
+const Vec3 kDefectMiddle = kDefectFace + (kDefectRadius - kDefectDepth) * kDefectOut;
+
 class Jaw {
  public:
   explicit Jaw(const Variant& variant)
       : long_(variant.has("long")),
+        defect_(variant.has("defect")),
         nerve_(nerve_curve(variant.has("high-nerve") ? kRaised : 0.0), 5 * kMm) {}
 
   struct Parts {
@@ -76,6 +83,7 @@ class Jaw {
     } else {
       s.hull = std::min(s.hull, 22 * mm - std::abs(p.y()));
     }
+    if (defect_) s.hull = std::min(s.hull, (p - kDefectMiddle).norm() - kDefectRadius);
 
     s.tooth = s.pulp = -1;
     for (const Tooth& tooth : teeth_) {
@@ -131,6 +139,11 @@ class Jaw {
                                  {"first premolar", axis(teeth_[0]), {}},
                                  {"second premolar", axis(teeth_[1]), {}},
                                  {"second molar", axis(teeth_[2]), {}}};
+    if (defect_) {
+      all.push_back({"middle of the defect", {kDefectMiddle}, {}});
+      all.push_back({"face over the defect", {kDefectFace}, kDefectOut});
+      all.push_back({"floor of the defect", {kDefectFace - kDefectDepth * kDefectOut}, {}});
+    }
     if (long_) {
       // forwards, across the slab; and its middle
       const Vec3 across = Vec3(0, -std::cos(kLean), std::sin(kLean));
@@ -177,7 +190,7 @@ class Jaw {
     return points;
   }
 
-  bool long_;
+  bool long_, defect_;
   Curve row_{
       {at_mm(-7, -40, 0), at_mm(-4.6, -20, 0), at_mm(0, 0, 0), at_mm(4.4, 20, 0), at_mm(9, 40, 0)},
       60 * kMm};

@@ -38,9 +38,10 @@ constexpr std::array<VariantWord, 4> kTemporalBoneVariants = {
      {"sclerotic", "dense bone in place of the mastoid cells"}}};
 constexpr std::array<VariantWord, 1> kSpineVariants = {
     {{"thin-pedicle", "the pedicles are 2.4 mm narrower and lower"}}};
-constexpr std::array<VariantWord, 2> kJawVariants = {
+constexpr std::array<VariantWord, 3> kJawVariants = {
     {{"long", "longer in front, for an osteotomy: toothless to the front, floor of the mouth"},
-     {"high-nerve", "the nerve lies 2.5 mm nearer to the ridge"}}};
+     {"high-nerve", "the nerve lies 2.5 mm nearer to the ridge"},
+     {"defect", "a round defect 2.5 mm deep in the cheek side, below the nerve"}}};
 constexpr std::array<VariantWord, 3> kToothVariants = {
     {{"graded", "caries in three grades, and a second, smaller one in front of it"},
      {"shallow", "the caries ends 0.8 mm higher"},

@@ -41,6 +41,7 @@ class Checker {
     const std::uint32_t line = reader_.line("reference");
     for (const std::string& name : lesson_.reference->remove)
       region(line, "reference.remove", name);
+    for (const std::string& name : lesson_.reference->fill) region(line, "reference.fill", name);
     for (const auto& [name, thick] : lesson_.reference->leave)
       structure(line, "reference.leave", name);
   }

@@ -125,6 +125,7 @@ struct Step {
   std::vector<std::string> show;          // structures, regions or landmarks to be lit on demand
   std::vector<std::string> must_precede;  // ids of steps
   std::optional<DoneWhen> done;           // none: only the user says so
+  bool adds = false;                      // the region is filled with material, not cut away
   std::uint32_t line = 0;
 };
 
@@ -143,9 +144,11 @@ struct Feedback {
   std::string fade;  // fade.h; empty: guidance does not fade
 };
 
-// A result that is known to be good: these regions are gone, and this much is left over structures.
+// A result that is known to be good: these regions are gone, these are filled, and this much is left
+// over structures.
 struct Reference {
   std::vector<std::string> remove;                    // regions
+  std::vector<std::string> fill;                      // regions
   std::vector<std::pair<std::string, double>> leave;  // structure, thickness [m]
 };
 

@@ -82,7 +82,7 @@ void read_approach(Reader& reader, std::vector<math::Vec3>& out) {
 
 void read_step(Reader& reader, Step& out) {
   reader.only({"id", "title", "say", "structure", "region", "spare", "tool", "approach", "show",
-               "must_precede", "done"});
+               "must_precede", "done", "adds"});
   out.line = reader.line();
   reader.text("id", out.id, true);
   read_texts(reader, "title", out.title);
@@ -95,6 +95,9 @@ void read_step(Reader& reader, Step& out) {
   reader.texts("show", out.show);
   reader.texts("must_precede", out.must_precede);
   reader.table("done", [&](Reader& inner) { read_done(inner, out); });
+  reader.flag("adds", out.adds);
+  if (out.adds && out.region.empty())
+    reader.fail("adds", "needs the region that is filled; add region");
 }
 
 // The words that [feedback] knows, docs/cases.md.
@@ -133,8 +136,9 @@ void read_feedback(Reader& reader, Feedback& out) {
 }
 
 void read_reference(Reader& reader, Reference& out) {
-  reader.only({"remove", "leave"});
+  reader.only({"remove", "fill", "leave"});
   reader.texts("remove", out.remove);
+  reader.texts("fill", out.fill);
   if (out.remove.empty()) reader.fail("remove", "is missing; give the regions that are gone");
   reader.each("leave", [&](Reader& inner) {
     inner.only({"structure", "mm"});

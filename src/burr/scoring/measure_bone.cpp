@@ -8,6 +8,7 @@
 #include "burr/base/check.h"
 #include "burr/base/printable.h"
 #include "burr/metrics/cover.h"
+#include "burr/metrics/filled.h"
 #include "burr/metrics/identified.h"
 #include "burr/metrics/intact_plate.h"
 #include "burr/metrics/intact_solid.h"
@@ -183,6 +184,23 @@ Outcome removed(const Item& item, Scene& scene, bool at_least) {
   return decided(item, mark, "share removed", at_least);
 }
 
+// filled: at least that share of the gap holds material now; filled_beside: of what was added, at most
+// that share lies outside of the gap
+Outcome filled(const Item& item, Scene& scene, bool inside) {
+  const auto full = metrics::filled_of(scene.before(), scene.after(), scene.region(item.region),
+                                       {.grown = inside ? 0 : item.limit("off_mm")});
+  if (!full) return not_assessable(item, full.reason());
+  const double share = item.limit("share");
+  if (inside)
+    return decided(item, {full->share >= share, true, full->share, share, full->error},
+                   "share of the gap that was filled", true);
+  Outcome out =
+      decided(item, metrics::intact_mark(full->stray, share, full->stray_error, full->share),
+              "share of what was added that lies beside the gap", false);
+  if (!out.earned) out.reason = "too little was added to earn it";
+  return out;
+}
+
 }  // namespace
 
 Outcome not_assessable(const Item& item, std::string reason) {
@@ -235,6 +253,8 @@ Outcome measure_bone(const Item& item, Scene& scene) {
   if (how == "overhang") return overhang(item, scene);
   if (how == "removed") return removed(item, scene, true);
   if (how == "kept") return removed(item, scene, false);
+  if (how == "filled") return filled(item, scene, true);
+  if (how == "filled_beside") return filled(item, scene, false);
   if (auto shape = measure_shape(item, scene)) return *std::move(shape);
   BURR_CHECK(needs_recording(item));  // every measure is in one of the two lists
   return not_assessable(item, "it needs a recording");

@@ -78,6 +78,16 @@ std::vector<Measure> measures_of_anatomy() {
        .quantity = share,
        .region = true,
        .limits = {{"share", 1, 0.1, 0, 1}}},
+      {.name = "filled",
+       .part = kProduct,
+       .quantity = share,
+       .region = true,
+       .limits = {{"share", 1, 0.8, 0, 1}}},
+      {.name = "filled_beside",
+       .part = kProduct,
+       .quantity = share,
+       .region = true,
+       .limits = {{"share", 1, 0.1, 0, 1}, {"off_mm", kMm, 0.3, 0, 5}}},
   };
 }
 

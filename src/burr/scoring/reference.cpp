@@ -22,6 +22,43 @@ metrics::Region plan_of(const scenario::Reference& reference, Scene& scene) {
   return all;
 }
 
+// Farther outside than this at its middle, a brick has nothing of a region [voxel].
+constexpr double kHalfDiagonal = 3.5 * 1.74;
+
+constexpr volume::TissueId kAdded = 1;  // of what is added, as in a session
+
+Status fill(volume::Bone& bone, const metrics::Region& plan) {
+  const volume::Grid& grid = bone.grid();
+  constexpr int kEdge = volume::kBrickEdge;
+  for (volume::BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {
+    const math::Ijk first = bone.brick_ijk(brick);
+    const math::Vec3 middle =
+        grid.world_from_grid(first.cast<double>() + math::Vec3::Constant(3.5));
+    if (plan(middle) < -(kHalfDiagonal + volume::kRamp) * grid.voxel) continue;
+    volume::BrickField now{};
+    if (const volume::Field* old = bone.brick_field(brick); old != nullptr)
+      std::memcpy(now.voxel, old, sizeof now.voxel);
+    bool any = false;
+    std::vector<math::Ijk> grown;  // from air
+    for (int n = 0; n < volume::kBrickVoxels; ++n) {
+      const math::Ijk voxel = first + math::Ijk(n % kEdge, n / kEdge % kEdge, n / (kEdge * kEdge));
+      if (!grid.contains(voxel)) continue;
+      const double depth = plan(grid.world_from_grid(voxel.cast<double>()));
+      const volume::Field full = volume::field_from_depth(depth / grid.voxel);
+      if (full <= now.voxel[n]) continue;
+      any = true;
+      if (now.voxel[n] == 0) grown.push_back(voxel);
+      now.voxel[n] = full;
+    }
+    if (!any) continue;
+    if (bone.ensure_slot(brick) == volume::kNoSlot)
+      return error(Trouble::data, "the bone has no room left for what the reference adds");
+    bone.write_brick(brick, now);
+    for (const math::Ijk& voxel : grown) bone.set_tissue(voxel.x(), voxel.y(), voxel.z(), kAdded);
+  }
+  return fine();
+}
+
 }  // namespace
 
 Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
@@ -40,7 +77,7 @@ Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
     // no region reaches farther than its depth at the middle says; the corners are this far away
     const math::Vec3 middle =
         grid.world_from_grid(first.cast<double>() + math::Vec3::Constant(3.5));
-    if (plan(middle) < -(3.5 * 1.74 + volume::kRamp) * grid.voxel) continue;
+    if (plan(middle) < -(kHalfDiagonal + volume::kRamp) * grid.voxel) continue;
     volume::BrickField now;
     std::memcpy(now.voxel, old, sizeof now.voxel);
     bool cut = false;
@@ -54,6 +91,7 @@ Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
     }
     if (cut) bone.write_brick(brick, now);
   }
+  if (!lesson.reference->fill.empty()) return fill(bone, scene.regions(lesson.reference->fill));
   return fine();
 }
 

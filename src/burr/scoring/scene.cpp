@@ -201,7 +201,7 @@ double Scene::worked() {
   if (lesson_.reference) names = lesson_.reference->remove;
   if (names.empty())
     for (const scenario::Step& step : lesson_.steps)
-      if (!step.region.empty()) names.push_back(step.region);
+      if (!step.region.empty() && !step.adds) names.push_back(step.region);
   worked_ = 0;
   if (names.empty()) return worked_;
   const auto gone = metrics::removed_of(before_, after_, regions(names), {});

@@ -1,5 +1,5 @@
-// surgeon/step_work.h - one step of a case in a surgeon's eyes: what is still to be removed, where
-// the next stroke begins, and with which burr.
+// surgeon/step_work.h - one step of a case in which bone is cut away: what is still to be removed,
+// where the next stroke begins, and with which burr.
 //
 // A node of the goal counts as long as its voxel is bone, its goal is at least kSkin, and the
 // smallest burr of this surgeon gets there. Where that burr is too wide for nearly all of the plan,
@@ -23,28 +23,14 @@
 #include "burr/scenario/lesson.h"
 #include "burr/surgeon/plan.h"
 #include "burr/surgeon/skill.h"
-#include "burr/surgeon/surgeon_hand.h"
-#include "burr/tool/burr_tool.h"
+#include "burr/surgeon/work.h"
 #include "burr/volume/bone.h"
 
 namespace burr::surgeon {
 
 inline constexpr double kSkin = 0.2e-3;  // what is left of the goal at the end counts as done [m]
 
-struct HeldBurr {
-  double radius = 1e-3;  // [m]
-  tool::BurrKind kind = tool::BurrKind::cutting;
-  [[nodiscard]] bool operator==(const HeldBurr&) const = default;
-};
-
-struct NextStroke {
-  Stroke stroke;  // its way is for a burr that is `held` already
-  HeldBurr burr;
-  math::Vec3 at = math::Vec3::Zero();   // of the bone's surface
-  math::Vec3 out = math::Vec3::Zero();  // unit, the way out that is free
-};
-
-class StepWork {
+class StepWork final : public Work {
  public:
   // goal: of this step. allowed: of this step and those before it, where the burr may go. Everything
   // but bone and goal must outlive this. case_diameter: of the case's burr [m].
@@ -52,19 +38,15 @@ class StepWork {
            const FieldGrid& goal, const FieldGrid& allowed, const Spare& spare, const Skill& skill,
            double case_diameter);
 
-  // Share of the plan that is still there; 0 for an empty plan.
-  [[nodiscard]] double left() const;
-  // Nodes that are still there.
-  [[nodiscard]] std::size_t remaining() const { return left_; }
-  // Looks at the bone again around the hand.
-  void look(const volume::Bone& bone, const math::Vec3& hand);
-  // True: no burr of this surgeon reaches what is left.
-  [[nodiscard]] bool exhausted() const { return exhausted_; }
+  [[nodiscard]] double left() const override;
+  [[nodiscard]] std::size_t remaining() const override { return left_; }
+  void look(const volume::Bone& bone, const math::Vec3& hand) override;
+  [[nodiscard]] bool exhausted() const override { return exhausted_; }
   // Nodes of the whole plan.
   [[nodiscard]] std::size_t count() const { return all_; }
-  // Nothing: exhausted(), or no place was found yet; ask again.
   [[nodiscard]] std::optional<NextStroke> next(const volume::Bone& bone, const math::Vec3& hand,
-                                               const HeldBurr& held, people::RandomStream& random);
+                                               const HeldBurr& held,
+                                               people::RandomStream& random) override;
 
  private:
   struct Node {

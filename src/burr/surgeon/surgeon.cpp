@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "burr/surgeon/fill_work.h"
+#include "burr/surgeon/step_work.h"
 #include "burr/volume/sample.h"
 
 namespace burr::surgeon {
@@ -72,6 +74,14 @@ void Surgeon::begin_step(const volume::Bone& bone, Consulted& out) {
   const scenario::Step& step = lesson_.steps[step_];
   out.notes.push_back({NoteKind::step_begun, step.id, 1});
   const std::vector<Vec3> approach = approach_of(lesson_, step);
+  if (step.adds != adds_) out.adds = adds_ = step.adds;
+  if (step.adds) {
+    filling_ = filling_of(*lesson_.region(step.region), believed_, spare_);
+    out_ = approach.front();
+    work_ = std::make_unique<FillWork>(bone, step, filling_, out_, skill_, case_diameter_);
+    working_->look_at(&filling_, &spare_.near, true);
+    return;
+  }
   const FieldGrid goal = goal_of(*lesson_.region(step.region), approach, believed_, spare_);
   if (allowed_.nodes() == 0) allowed_ = goal;
   for (std::size_t n = 0; n < goal.nodes(); ++n)

@@ -24,7 +24,12 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/scenario/lesson.h"
-#include "burr/surgeon/step_work.h"
+#include "burr/surgeon/believed.h"
+#include "burr/surgeon/plan.h"
+#include "burr/surgeon/skill.h"
+#include "burr/surgeon/surgeon_hand.h"
+#include "burr/surgeon/work.h"
+#include "burr/tool/burr_tool.h"
 
 namespace burr::surgeon {
 
@@ -48,6 +53,7 @@ struct Consulted {
   std::vector<SurgeonNote> notes;
   std::optional<HeldBurr> burr;  // is taken into the hand now
   std::optional<Eye> eye;        // the surgeon looks from here from now on
+  std::optional<bool> adds;      // from now on the burr adds material, or cuts again
 };
 
 class Surgeon {
@@ -91,9 +97,11 @@ class Surgeon {
   Believed believed_;
   Spare spare_;
   FieldGrid allowed_;  // the goals of this step and of those before it
+  FieldGrid filling_;  // of a step that adds
+  bool adds_ = false;  // the burr adds material
   std::unique_ptr<SurgeonHand> hand_;
   SurgeonHand* working_ = nullptr;
-  std::unique_ptr<StepWork> work_;
+  std::unique_ptr<Work> work_;
   std::size_t step_ = 0;  // of the lesson
   std::optional<HeldBurr> wanted_;
   std::uint64_t consultations_ = 0, earliest_end_ = 0;

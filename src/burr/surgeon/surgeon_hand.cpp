@@ -23,6 +23,8 @@ constexpr double kAhead = 0.5e-3;  // a stroke turns this far before the goal en
 constexpr double kSlack = 0.1e-3;  // by more than this; it lifts where less is missing [m]
 constexpr double kFarAway = 4e-3;  // beyond it the force is the whole one [m]
 constexpr double kTurning = 4.0;   // of the shaft [1/s]
+constexpr double kRing = 0.2;      // of the radius: so high material rises around the burr [-]
+constexpr double kGently = 0.15;   // of the pedal: material is added in thin layers [-]
 
 }  // namespace
 
@@ -45,8 +47,9 @@ SurgeonHand::SurgeonHand(const Skill& skill, double dt, std::uint64_t seed, cons
   rooms_.fill(1);
 }
 
-void SurgeonHand::look_at(const FieldGrid* goal, const FieldGrid* near) {
+void SurgeonHand::look_at(const FieldGrid* goal, const FieldGrid* near, bool adds) {
   goal_ = goal;
+  adds_ = adds;
   near_ = near;
 }
 
@@ -70,11 +73,13 @@ void SurgeonHand::retreat(const Vec3& out, double distance) {
 }
 
 double SurgeonHand::room(const Vec3& p) const BURR_RT {
-  return goal_ != nullptr ? goal_->at(p) - radius_ : 1;
+  if (goal_ == nullptr) return 1;
+  return adds_ ? goal_->at(p + (1 - kRing) * radius_ * stroke_.into) : goal_->at(p) - radius_;
 }
 
 void SurgeonHand::reach_bone() BURR_RT {
   phase_ = Phase::stroking;
+  full_ = false;
   done_ = 0;
   sense_ = 1;
   rooms_.fill(1);
@@ -109,6 +114,7 @@ void SurgeonHand::stroke(double dt) BURR_RT {
       static_cast<double>(rooms_[(tick_ + kMemory - delay_) % kMemory]);  // T_stop ago
   ++tick_;
   stroked_ += dt;
+  full_ = adds_ && seen < 0;
   const double near = near_ != nullptr ? std::max(0.0, near_->at(burr) - radius_) : kFarAway;
   const double share = skill_.restraint + (1 - skill_.restraint) * std::min(1.0, near / kFarAway);
   const double wanted = skill_.force * share * uneven_.next();
@@ -144,7 +150,8 @@ device::HandState SurgeonHand::state(double dt) BURR_RT {
   device::HandState hand;
   hand.world_from_tool = {p, math::shortest_rotation(Vec3::UnitZ(), shaft_)};
   hand.velocity = (p - last_) / dt;
-  hand.pedal = phase_ == Phase::stroking || (phase_ == Phase::going && !stroke_.idle_way) ? 1 : 0;
+  const bool works = phase_ == Phase::stroking || (phase_ == Phase::going && !stroke_.idle_way);
+  hand.pedal = !works || full_ ? 0 : adds_ ? kGently : 1;
   last_ = p;
   return hand;
 }

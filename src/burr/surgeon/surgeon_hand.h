@@ -7,7 +7,9 @@
 // (wanted force - felt force) / kYield, never faster than the goal ahead allows. Where the goal has
 // ended, the hand lifts along the way out, the surgeon's stop delay later: away from the bone that it
 // presses on could be into what must stay. What pushes against the way slows it down.
-// Nothing here knows the bone; the goal (plan.h) is what the surgeon believes.
+// Nothing here knows the bone; the goal (plan.h) is what the surgeon believes. A hand that adds material
+// presses in the same way; for it the goal has ended where the surface under the burr, on the side
+// of the bone, has come up to the border of the plan (fill_work.h); then the foot leaves the pedal too.
 //
 // Frame: world. Units: SI. Thread: state(), write_force() servo, without allocation; all else on the
 // thread that runs the ticks, between two of them, or before.
@@ -45,7 +47,8 @@ class SurgeonHand final : public device::Device {
 
   // ---- of the surgeon, between ticks
   // goal, near: kept by reference until the next call, while the hand works.
-  void look_at(const FieldGrid* goal, const FieldGrid* near);
+  // adds: the goal is to be filled.
+  void look_at(const FieldGrid* goal, const FieldGrid* near, bool adds = false);
   void begin(const Stroke& stroke, double burr_radius);
   // Out along `out` to a distance, and wait there with the pedal up.
   void retreat(const math::Vec3& out, double distance);
@@ -88,7 +91,8 @@ class SurgeonHand final : public device::Device {
   double done_ = 0;     // along the stroke [m]
   double sense_ = 1;    // +1 forwards, -1 back
   double stroked_ = 0;  // time of this stroke [s]
-  bool finished_ = false, leaving_ = false;
+  bool finished_ = false, leaving_ = false, adds_ = false;
+  bool full_ = false;  // what is filled has come up to the plan, as the surgeon saw a delay ago
   math::Vec3 at_, last_, force_ = math::Vec3::Zero(), shaft_;
   std::array<float, kMemory> rooms_ =
       {};  // how much goal was left under the burr, tick by tick [m]

@@ -12,7 +12,7 @@ namespace burr::workshop {
 
 std::unique_ptr<volume::Bone> prebuilt_phantom(const std::string& phantom,
                                                std::size_t reserve_bricks) {
-  // "jaw?long" lies in jaw-long.bone
+  // "jaw?long,defect" lies in jaw-long-defect.bone
   std::string name = phantom;
   for (char& one : name)
     if (one == '?' || one == ',') one = '-';

@@ -1,0 +1,145 @@
+#include "burr/surgeon/fill_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "burr/surgeon/step_work.h"
+#include "burr/volume/sample.h"
+
+namespace burr::surgeon {
+namespace {
+
+using math::Ijk;
+using math::Vec3;
+
+constexpr double kReread = 15e-3;  // around the hand [m]
+constexpr double kClear = 0.3e-3;  // above the surface before a stroke [m]
+constexpr double kAbove = 3e-3;    // of the next start, for the way [m]
+constexpr double kSpread = 0.5;    // of the burr's radius: so far beside it material is added [-]
+constexpr double kPiece = 0.5e-3;  // in which a stroke is looked at [m]
+constexpr std::uint32_t kBan = 6;  // calls in which a node is left out after a try
+constexpr std::uint32_t kPatience = 60;  // calls without progress until the surgeon gives up
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+bool is_empty(const volume::Bone& bone, const Ijk& at) {
+  return bone.field(at.x(), at.y(), at.z()) < volume::kIso;
+}
+
+}  // namespace
+
+FieldGrid filling_of(const scenario::CaseRegion& region, const Believed& believed,
+                     const Spare& spare) {
+  FieldGrid out = spare.free;
+  const Believed::Depth depth = believed.region(region);
+  for (std::size_t n = 0; n < out.nodes(); ++n)
+    out.value[n] = std::min(out.value[n], static_cast<float>(std::max(-1.0, depth(out.node(n)))));
+  return out;
+}
+
+FillWork::FillWork(const volume::Bone& bone, const scenario::Step& step, const FieldGrid& plan,
+                   const Vec3& out, const Skill& skill, double case_diameter)
+    : plan_(plan), skill_(skill), out_(out) {
+  double diameter = case_diameter * skill.burrs.middle;
+  if (step.diameter && skill.burrs.heeds_step)
+    diameter = std::clamp(diameter, step.diameter->first, step.diameter->second);
+  diameter = std::clamp(diameter, std::max(tool::kSmallestDiameter, 4 * bone.grid().voxel),
+                        tool::kLargestDiameter);
+  burr_.radius = 0.5 * diameter;
+  for (std::size_t n = 0; n < plan.nodes(); ++n) {
+    if (static_cast<double>(plan.value[n]) < kSkin) continue;
+    Node node{plan.node(n), {}, 0};
+    node.voxel = (bone.grid().grid_from_world(node.at).array() + 0.5).floor().cast<int>();
+    if (is_empty(bone, node.voxel)) nodes_.push_back(node);
+  }
+  all_ = left_then_ = nodes_.size();
+}
+
+double FillWork::left() const {
+  return all_ > 0 ? static_cast<double>(nodes_.size()) / static_cast<double>(all_) : 0;
+}
+
+void FillWork::look(const volume::Bone& bone, const Vec3& hand) {
+  nodes_.erase(std::remove_if(nodes_.begin(), nodes_.end(),
+                              [&](const Node& node) {
+                                return (node.at - hand).norm() < kReread &&
+                                       !is_empty(bone, node.voxel);
+                              }),
+               nodes_.end());
+}
+
+// Is there bone just below, seen from the surgeon?
+bool FillWork::on_surface(const volume::Bone& bone, const Node& node) const {
+  return volume::depth_at(bone, node.at - plan_.spacing() * out_) > 0;
+}
+
+NextStroke FillWork::stroke_at(const volume::Bone& bone, const Node& node,
+                               people::RandomStream& random) const {
+  NextStroke next;
+  next.at = node.at;
+  next.burr = burr_;
+  next.out = out_;
+  Stroke& stroke = next.stroke;
+  const double angle = 2 * M_PI * random.uniform();
+  const Vec3 u = out_.unitOrthogonal(), v = out_.cross(u);
+  stroke.along = std::cos(angle) * u + std::sin(angle) * v;
+  stroke.out = out_;
+  stroke.into = -out_;
+  stroke.shaft = out_;
+  // on the line, as far as the plan is not full; material spreads to the sides of the burr
+  const double wide = kSpread * burr_.radius;
+  const auto fits = [&](double s) {
+    return plan_.at(node.at + (s + std::copysign(wide, s)) * stroke.along) > 0;
+  };
+  const double length = skill_.stroke * std::exp(0.3 * random.normal());
+  double ahead = 0, behind = 0;
+  while (ahead + behind < length && fits(ahead + kPiece)) ahead += kPiece;
+  while (ahead + behind < length && fits(-behind - kPiece)) behind += kPiece;
+  stroke.length = std::max(kPiece, ahead + behind);
+  // down to the place from where the burr is free of the surface
+  stroke.start = node.at + burr_.radius * out_ - behind * stroke.along;
+  while (volume::depth_at(bone, stroke.start - burr_.radius * out_) > 0)
+    stroke.start += kClear * out_;
+  stroke.start += kClear * out_;
+  return next;
+}
+
+std::optional<NextStroke> FillWork::next(const volume::Bone& bone, const Vec3& hand,
+                                         const HeldBurr& held, people::RandomStream& random) {
+  ++calls_;
+  if (nodes_.size() < left_then_) {
+    left_then_ = nodes_.size();
+    calls_then_ = calls_;
+  }
+  if (calls_ - calls_then_ > kPatience) {
+    exhausted_ = true;
+    return std::nullopt;
+  }
+  std::size_t found = kNone;
+  double most = -std::numeric_limits<double>::infinity();
+  const double luck = random.uniform();
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    if (node.banned > calls_ || !on_surface(bone, node)) continue;
+    double worth = -1e3 * node.at.dot(out_) - 0.1e3 * (node.at - hand).norm();
+    const double beside = kSpread * burr_.radius - plan_.at(node.at);  // too near to the border
+    worth -= 0.5e3 * std::max(0.0, beside);
+    worth += 0.5 * std::fmod(luck + 0.6180339887498949 * static_cast<double>(n), 1.0);
+    if (worth <= most) continue;
+    most = worth;
+    found = n;
+  }
+  if (found == kNone) return std::nullopt;
+  nodes_[found].banned = calls_ + kBan;
+  NextStroke next = stroke_at(bone, nodes_[found], random);
+  if (!(next.burr == held)) return next;
+  Stroke& stroke = next.stroke;
+  const double rise = std::max(kAbove, kAbove + (stroke.start - hand).dot(out_));
+  stroke.idle_way = true;
+  stroke.way[0] = hand + rise * out_;
+  stroke.way[1] = stroke.start + kAbove * out_;
+  stroke.points = 2;
+  return next;
+}
+
+}  // namespace burr::surgeon

@@ -1,0 +1,66 @@
+// surgeon/fill_work.h - one step of a case in which a gap is filled: what is still empty, and where the
+// next stroke begins.
+//
+// A node of the plan counts as long as its voxel is empty and lies at least kSkin below the plan's
+// border: what the gap is believed to be, less what must stay free. The next stroke begins on the
+// surface under the deepest empty nodes, seen along the way out, at a short way from the hand; so the
+// gap fills from its floor in layers. The hand lifts where the surface under the burr has come up to
+// the border (SurgeonHand::look_at).
+//
+// Frame: world. Units: SI. Thread: the one that runs the ticks, between two of them. Cost: a pass over
+// the nodes of the gap a call.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "burr/scenario/lesson.h"
+#include "burr/surgeon/plan.h"
+#include "burr/surgeon/skill.h"
+#include "burr/surgeon/work.h"
+
+namespace burr::surgeon {
+
+class FillWork final : public Work {
+ public:
+  // plan: depth below the border of what is to be filled; must outlive this. out: unit, to the
+  // surgeon. case_diameter: of the case's burr [m].
+  FillWork(const volume::Bone& bone, const scenario::Step& step, const FieldGrid& plan,
+           const math::Vec3& out, const Skill& skill, double case_diameter);
+
+  [[nodiscard]] double left() const override;
+  [[nodiscard]] std::size_t remaining() const override { return nodes_.size(); }
+  void look(const volume::Bone& bone, const math::Vec3& hand) override;
+  [[nodiscard]] bool exhausted() const override { return exhausted_; }
+  [[nodiscard]] std::optional<NextStroke> next(const volume::Bone& bone, const math::Vec3& hand,
+                                               const HeldBurr& held,
+                                               people::RandomStream& random) override;
+
+ private:
+  struct Node {
+    math::Vec3 at;  // world [m]
+    math::Ijk voxel;
+    std::uint32_t banned;  // until this call of next()
+  };
+  [[nodiscard]] bool on_surface(const volume::Bone& bone, const Node& node) const;
+  [[nodiscard]] NextStroke stroke_at(const volume::Bone& bone, const Node& node,
+                                     people::RandomStream& random) const;
+
+  const FieldGrid& plan_;
+  Skill skill_;
+  math::Vec3 out_;
+  HeldBurr burr_;
+  std::vector<Node> nodes_;  // empty still
+  std::size_t all_ = 0, left_then_ = 0;
+  std::uint32_t calls_ = 0, calls_then_ = 0;
+  bool exhausted_ = false;
+};
+
+// What is to be filled in a step, as this surgeon believes it: depth below the border of `region` and
+// of what lies `margin` and more away from all that must stay whole.
+[[nodiscard]] FieldGrid filling_of(const scenario::CaseRegion& region, const Believed& believed,
+                                   const Spare& spare);
+
+}  // namespace burr::surgeon
