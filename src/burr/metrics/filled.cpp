@@ -32,7 +32,7 @@ struct Sums {
 
 // Half the diagonal of a brick and the ramp of units_in(); a brick farther outside holds nothing of
 // the region [voxel].
-constexpr double kFar = 13;
+constexpr double kBeyond = 13;
 
 // One that can hold added material or a part of the region.
 void add_brick(const Bone& before, const Bone& after, BrickIndex brick, const Region& region,
@@ -44,14 +44,14 @@ void add_brick(const Bone& before, const Bone& after, BrickIndex brick, const Re
   const double middle =
       depth_in(region, grid.world_from_grid(first.cast<double>() + math::Vec3::Constant(3.5))) /
       grid.voxel;
-  if (middle < -kFar - far && is == nullptr) return;
+  if (middle < -kBeyond - far && is == nullptr) return;
   for (int v = 0; v < volume::kBrickVoxels; ++v) {
     const std::int64_t had = volume::volume_units(std::int32_t{was == nullptr ? Field{0} : was[v]});
     const std::int64_t has = volume::volume_units(std::int32_t{is == nullptr ? Field{0} : is[v]});
     // by the field: the volume of a voxel does not rise everywhere with its field
     const bool grew = (is == nullptr ? 0 : is[v]) > (was == nullptr ? 0 : was[v]);
     const std::int64_t more = grew ? has - had : 0;
-    if (more == 0 && middle < -kFar) continue;
+    if (more == 0 && middle < -kBeyond) continue;
     const math::Ijk at = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
     if (!grid.contains(at)) continue;
     const double depth = depth_in(region, grid.world_from_grid(at.cast<double>())) / grid.voxel;
