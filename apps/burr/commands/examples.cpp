@@ -46,6 +46,7 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"psychophysics", "friction --device touch --subject p07 --out p07", "a person"},
     {"export", "s.mcap --part bone --out bone.stl", "a mesh to print"},
     {"export", "s.mcap --part removed --frame print --out removed.3mf", "what was removed"},
+    {"export", "s.mcap --part pieces --out piece.stl", "each piece that came free, by itself"},
     {"export", "ct_folder/ --out bone.seg.nrrd", "a scan as labels"},
     {"phantom", "temporal-bone --voxel-mm 0.25 --out bone.seg.nrrd", "with its structures"},
     {"phantom", "jaw --landmarks", "the points that the formula knows"},

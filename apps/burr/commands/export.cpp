@@ -12,6 +12,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
+#include "commands/export_pieces.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/volume_words.h"
@@ -62,7 +63,7 @@ bool is_recording(const std::string& path) {
 
 // A volume as it was opened: nothing has been removed from it.
 Result<Bones> open_plain(const Options& options) {
-  if (options.part != "bone")
+  if (options.part == "removed" || options.part == "added")
     return error(Trouble::usage,
                  "nothing has been removed from this volume, or added; give a recording (.mcap)");
   scenario::Recipe volume = options.volume;
@@ -109,7 +110,22 @@ std::string parts_text(const surface::Shells& shells, bool largest) {
   return text;
 }
 
+// Options that say nothing about pieces.
+Status check_pieces(const Options& options) {
+  if (options.part != "pieces") return fine();
+  if (options.largest)
+    return error(Trouble::usage,
+                 "--largest and --part pieces contradict each other; the first file of --part "
+                 "pieces is the largest piece");
+  if (options.scan)
+    return error(Trouble::usage,
+                 "--scan: pieces have no grey values; leave it out, or use --part bone");
+  return fine();
+}
+
 Status run(const Options& options) {
+  const Status asked = check_pieces(options);
+  if (!asked) return asked;
   const Status possible = io::check_export(options.out, options.what());
   if (!possible) return possible;
   const Status allowed = check_outputs(
@@ -121,6 +137,8 @@ Status run(const Options& options) {
   if (!bones) return bones.error();
   const volume::Bone& before = *bones->before;
   const volume::Bone& now = bones->now ? *bones->now : before;
+  if (options.part == "pieces")
+    return export_pieces(now, options.out, options.what(), options.force, options.json);
   const auto exported = io::export_part(before, now, options.out, options.what(), progress());
   if (!exported) return exported.error();
 
@@ -161,8 +179,11 @@ void add(CLI::App& app, Todo& todo) {
           "--out", options->out,
           "file to write; its ending decides the format: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd")
       ->required();
-  command->add_option("--part", options->part, "what to write: bone, removed or added")
-      ->check(CLI::IsMember({"bone", "removed", "added"}))
+  command
+      ->add_option(
+          "--part", options->part,
+          "what to write: bone, removed, added, or pieces: a numbered file for each separate piece")
+      ->check(CLI::IsMember({"bone", "removed", "added", "pieces"}))
       ->capture_default_str();
   command
       ->add_option("--frame", options->frame,

@@ -1,0 +1,24 @@
+// commands/export_pieces.h - `burr export --part pieces`: each separate piece of the bone to a file
+// of its own.
+#pragma once
+
+#include <string>
+
+#include "burr/base/result.h"
+#include "burr/io/export_part.h"
+#include "burr/volume/bone.h"
+
+namespace burr::app {
+
+// Pieces below this are splinters: they are counted and not written.  [m^3]
+inline constexpr double kSplinter = 5e-9;
+
+// "bone.stl" -> "bone_2.stl", "a.seg.nrrd" -> "a_2.seg.nrrd"
+[[nodiscard]] std::string numbered(const std::string& path, std::size_t number);
+
+// Writes numbered files beside `out`, the largest piece first, and prints what it wrote. force:
+// files that are there may be replaced. bone: at rest.
+[[nodiscard]] Status export_pieces(const volume::Bone& bone, const std::string& out,
+                                   const io::ExportOptions& options, bool force, bool json);
+
+}  // namespace burr::app
