@@ -22,7 +22,7 @@ constexpr std::array kValues = {
     Word::what_along,     Word::what_coolant,     Word::what_touched,    Word::what_order,
     Word::what_divided,   Word::what_axis_tilt,   Word::what_screw_out,  Word::what_screw_in};
 
-constexpr std::array<std::pair<std::string_view, Word>, 32> kMeasures = {
+constexpr std::array<std::pair<std::string_view, Word>, 34> kMeasures = {
     {{"identified", Word::explain_identified},
      {"skeletonised", Word::explain_skeletonised},
      {"intact_solid", Word::explain_intact_solid},
@@ -32,6 +32,8 @@ constexpr std::array<std::pair<std::string_view, Word>, 32> kMeasures = {
      {"opened", Word::explain_opened},
      {"overhang", Word::explain_overhang},
      {"removed", Word::explain_removed},
+     {"filled", Word::explain_filled},
+     {"filled_beside", Word::explain_filled_beside},
      {"kept", Word::explain_kept},
      {"burr_choice", Word::explain_burr_choice},
      {"restraint", Word::explain_restraint},
