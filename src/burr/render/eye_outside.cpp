@@ -26,8 +26,8 @@ bool keep_eye_outside(Scene& scene) {
   const double behind = bone_towards(scene, eye, back);
   if (behind <= 0) return false;
   for (int way = 0; way < 27; ++way) {
-    const Vec3 direction(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
-    if (way != 13 && bone_towards(scene, eye, direction.normalized()) <= 0) return false;
+    const math::Ijk to(way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1);
+    if (way != 13 && bone_towards(scene, eye, to.cast<double>().normalized()) <= 0) return false;
   }
   scene.camera.distance += behind + kAhead;
   return true;
