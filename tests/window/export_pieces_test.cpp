@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "burr/base/progress.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "support/folder.h"
@@ -40,10 +41,11 @@ std::unique_ptr<volume::Bone> three_balls() {
 
 TEST(ExportPieces, EachIsAFileOfItsOwnAndSplintersAreCounted) {
   const test::Folder folder;
+  NoProgress quiet;
   const auto bone = three_balls();
   const std::string out = (folder.path() / "bone.stl").string();
   testing::internal::CaptureStdout();
-  const Status written = export_pieces(*bone, out, {}, false, true);
+  const Status written = export_pieces(*bone, out, {}, false, true, quiet);
   const auto said = nlohmann::json::parse(testing::internal::GetCapturedStdout());
   ASSERT_TRUE(written.ok()) << written.error().text;
   ASSERT_EQ(said["pieces"].size(), 2U);
@@ -63,11 +65,12 @@ TEST(ExportPieces, EachIsAFileOfItsOwnAndSplintersAreCounted) {
 
 TEST(ExportPieces, NothingIsWrittenWhereNothingIsLargeEnough) {
   const test::Folder folder;
+  NoProgress quiet;
   const auto bone = phantom::bone_from_distance(
       phantom::box_grid(Vec3::Constant(-2 * kMm), Vec3::Constant(2 * kMm), 0.25 * kMm), {},
       phantom::ball(0.6 * kMm));
   const Status written =
-      export_pieces(*bone, (folder.path() / "bone.stl").string(), {}, false, false);
+      export_pieces(*bone, (folder.path() / "bone.stl").string(), {}, false, false, quiet);
   ASSERT_FALSE(written.ok());
   EXPECT_EQ(written.error().text,
             "no piece of the bone is larger than 5 mm^3; nothing was written");

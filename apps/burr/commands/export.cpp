@@ -138,7 +138,7 @@ Status run(const Options& options) {
   const volume::Bone& before = *bones->before;
   const volume::Bone& now = bones->now ? *bones->now : before;
   if (options.part == "pieces")
-    return export_pieces(now, options.out, options.what(), options.force, options.json);
+    return export_pieces(now, options.out, options.what(), options.force, options.json, progress());
   const auto exported = io::export_part(before, now, options.out, options.what(), progress());
   if (!exported) return exported.error();
 

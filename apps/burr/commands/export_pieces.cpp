@@ -8,7 +8,6 @@
 
 #include "burr/volume/pieces.h"
 #include "burr/volume/volume_of.h"
-#include "commands/command.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
 
@@ -23,7 +22,7 @@ std::string numbered(const std::string& path, std::size_t number) {
 }
 
 Status export_pieces(const volume::Bone& bone, const std::string& out,
-                     const io::ExportOptions& options, bool force, bool json) {
+                     const io::ExportOptions& options, bool force, bool json, Progress& progress) {
   const volume::PieceFinder finder(bone);
   const double voxel = bone.grid().voxel, voxel_m3 = voxel * voxel * voxel;
   std::size_t large = 0, splinters = 0;
@@ -52,7 +51,7 @@ Status export_pieces(const volume::Bone& bone, const std::string& out,
     const std::string path = numbered(out, n + 1);
     const auto piece = volume::piece_as_bone(bone, finder, n);
     if (!piece) return piece.error();
-    const auto written = io::export_part(**piece, **piece, path, options, progress());
+    const auto written = io::export_part(**piece, **piece, path, options, progress);
     if (!written) return written.error();
     const double volume_mm3 = 1e9 * volume::volume_of(**piece);
     if (json)

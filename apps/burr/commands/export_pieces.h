@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/io/export_part.h"
 #include "burr/volume/bone.h"
@@ -19,6 +20,7 @@ inline constexpr double kSplinter = 5e-9;
 // Writes numbered files beside `out`, the largest piece first, and prints what it wrote. force:
 // files that are there may be replaced. bone: at rest.
 [[nodiscard]] Status export_pieces(const volume::Bone& bone, const std::string& out,
-                                   const io::ExportOptions& options, bool force, bool json);
+                                   const io::ExportOptions& options, bool force, bool json,
+                                   Progress& progress);
 
 }  // namespace burr::app
