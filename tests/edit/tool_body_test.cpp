@@ -36,7 +36,7 @@ tool::Tool one_part(const Shape& shape, const Pose& at = {}) {
   return tool;
 }
 
-// A bone and a carver that takes what it is told, without margin and advance.
+// A bone and its carver. bare: margin and advance are 0, so the hole has the shape of the tool.
 struct Work {
   Work(const phantom::Depth& depth, double h_mm, double half_mm, bool bare = true)
       : h(h_mm * kMm),
