@@ -20,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-MOST = 40  # files in a group: about 30 s
+MOST = 60  # files in a group: about 40 s
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 import together  # noqa: E402  (which sources can be compiled as one)
@@ -46,14 +46,58 @@ def commands(build):
     return found
 
 
+def settings(command):
+    """What of a command says what the source means: compiler and language; then defines and folders, a pair each."""
+    words, rest, pairs = iter(command), [], []
+    for word in words:
+        if word in ("-isystem", "-I", "-D"):
+            pairs.append((word, next(words)))
+        elif re.match("-[ID]", word):
+            pairs.append((word,))
+        elif not re.match("-[WO]", word):  # warnings and optimisation change nothing for clang-tidy
+            rest.append(word)
+    return tuple(rest), pairs
+
+
+def alike(found):
+    """The same with few commands: one for all that differ in defines and folders only, with those of all of them.
+
+    The headers cost more than the files, so many small groups would take twice the time. A define that has two values keeps
+    its files apart.
+    """
+    made = {}  # compiler and language: list of [defines with their values, pairs, files]
+    for file, command in sorted(found.items()):
+        rest, pairs = settings(command)
+        values = dict("".join(pair)[2:].partition("=")[::2] for pair in pairs if pair[0].startswith("-D"))
+        for one in made.setdefault(rest, []):
+            if all(one[0].get(name, value) == value for name, value in values.items()):
+                break
+        else:
+            one = [{}, [], []]
+            made[rest].append(one)
+        one[0].update(values)
+        one[1].extend(pair for pair in pairs if pair not in one[1])
+        one[2].append(file)
+    return {file: (*rest, *(word for pair in pairs for word in pair))
+            for rest, ones in made.items() for _, pairs, files in ones for file in files}
+
+
+def with_kernels(file, text):
+    """The text, and that of the kernels that it includes for its processor (x.inc)."""
+    kernels = re.findall(r'#include "burr/(.*\.inc)"', text)
+    return text + "".join((ROOT / "src" / "burr" / kernel).read_text(errors="replace") for kernel in kernels)
+
+
 def groups(build):
-    """Lists of files that are compiled alike and do not define the same names, and how."""
+    """Lists of files that can be looked at together and do not define the same names, and how."""
     made = []  # [command, files, {room: its names}]; each room is a namespace
-    for file, command in sorted(commands(build).items()):
+    for file, command in sorted(alike(commands(build)).items()):
         text = file.read_text(errors="replace")
         if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name) or re.search(r"#include <(itk|gdcm)", text):
             continue
-        room, mine = file.relative_to(ROOT / "src" / "burr").parts[0], together.names(text)
+        room, mine = file.relative_to(ROOT / "src" / "burr").parts[0], together.names(with_kernels(file, text))
+        if re.search(r"#include <(X11/|GL/glx)|OPENXR|SDL_syswm", text):  # whose macros change what other files say
+            command = (*command, "-DALONE")
         for group in made:
             if group[0] == command and len(group[1]) < MOST and not group[2].setdefault(room, together.Names()).clash(mine):
                 break

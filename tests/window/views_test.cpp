@@ -121,7 +121,18 @@ TEST_F(ViewsWindow, ACaseBeginsAtItsEntryUnderTheMicroscope) {
           EXPECT_GT(scene.look.key.towards.normalized().z(), 0.93) << "the lamp is beside the eye";
           turn_wheel(1);
         }},
-       {"a step nearer", [&] { return drawn(20e-3); }, [] { turn_wheel(-3); }},
+       {"a step nearer", [&] { return drawn(20e-3); },
+        [&] {
+          EXPECT_FALSE(scene.focus) << "without a graphics card it is off at first";
+          press(SDLK_F9, KMOD_SHIFT);
+        }},
+       {"depth of field",
+        [&] { return scene.focus && scene.focus->distance == scene.camera.distance; },
+        [] { press(SDLK_F12, KMOD_CTRL); }},
+       {"sharp farther away",
+        [&] { return std::abs(scene.focus->distance - scene.camera.distance - 0.5e-3) < 1e-9; },
+        [] { press(SDLK_F9, KMOD_SHIFT); }},
+       {"everything sharp", [&] { return !scene.focus; }, [] { turn_wheel(-3); }},
        {"wider", [&] { return drawn(42e-3); }, [] { press(SDLK_t); }},
        {"see-through: nothing covers", [&] { return scene.look.opacity < 1 && !scene.drape; },
         [] { press(SDLK_t, KMOD_SHIFT); }},

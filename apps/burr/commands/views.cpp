@@ -59,6 +59,12 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       ->check(CLI::IsMember(names_of(kStereo)))
       ->capture_default_str();
   command
+      .add_option("--focus-mm", options.focus_mm,
+                  "depth of field of --view microscope: it is sharp this far beyond (above 0) or "
+                  "before the "
+                  "work; without it everything is sharp")
+      ->check(CLI::Range(-30.0, 30.0));
+  command
       .add_option("--height-mm", options.height_mm,
                   "height of the part of the bone that the picture shows")
       ->check(CLI::Range(0.1, 2000.0));
@@ -109,6 +115,7 @@ void look(render::Scene& scene, const Vec3& at, const Vec3& ahead, const ViewOpt
     scene.scale_bar = false;
     render::light_coaxially(scene.look);
   }
+  if (options.focus_mm) scene.focus = render::microscope_focus(camera, 1e-3 * *options.focus_mm);
   if (options.height_mm > 0 && options.view == "microscope")
     render::set_field(camera, 1e-3 * options.height_mm);
   else if (options.height_mm > 0)
@@ -134,10 +141,23 @@ void look_as_seen(render::Scene& scene, const render::Camera& camera, const View
   }
 }
 
+namespace {
+
+// Only a microscope has depth of field; nobody should wonder why nothing is unsharp.
+Status focus_fits(const ViewOptions& options) {
+  if (!options.focus_mm || options.view == "microscope") return fine();
+  return error(
+      Trouble::usage,
+      "--focus-mm: only --view microscope has depth of field; add it, or leave --focus-mm out");
+}
+
+}  // namespace
+
 bool shows_slice(const ViewOptions& options) { return named(kPlanes, options.view).has_value(); }
 
 Status set_view(render::Scene& scene, const Vec3& at, const Vec3& ahead,
                 const ViewOptions& options) {
+  if (const Status fits = focus_fits(options); !fits) return fits;
   if (named(kPlanes, options.view) || options.view == "whole")
     return error(Trouble::usage,
                  "--view " + options.view +
@@ -153,6 +173,7 @@ Status set_view(render::Scene& scene, const Vec3& at, const Vec3& ahead,
 
 Status draw_view(render::Scene scene, volume::Bone& bone, const Vec3& at, const Vec3& ahead,
                  const ViewOptions& options, PictureSize size, const std::string& file) {
+  if (const Status fits = focus_fits(options); !fits) return fits;
   if (const auto plane = named(kPlanes, options.view)) {
     render::Slice slice;
     slice.plane = *plane;

@@ -23,9 +23,11 @@ struct ViewOptions {
   std::string view;            // empty: work, or as the session was seen
   std::string clip;            // axial, coronal or sagittal: cut open in that plane; empty: whole
   std::string stereo = "off";  // side-by-side, anaglyph, interleaved
-  double height_mm = 0;        // height of the picture at the work; 0: a value that suits the view
-  bool labels = true;          // colours of tissues
-  double see_through = 0;      // transparency of the bone [%]
+  // the microscope is sharp that far beyond (above 0) or before the work; without it, everywhere [mm]
+  std::optional<double> focus_mm = {};
+  double height_mm = 0;    // height of the picture at the work; 0: a value that suits the view
+  bool labels = true;      // colours of tissues
+  double see_through = 0;  // transparency of the bone [%]
   // for slices: the scan's values, in this window; not an option on the command line
   std::shared_ptr<const volume::Greys> greys;
   double window = 0, grey_level = 0;
@@ -37,7 +39,7 @@ struct ViewOptions {
 // tissue of a microscope if it is one. The surface must be in the scene; fresh: the drape is made anew.
 void look_as_seen(render::Scene& scene, const render::Camera& camera, const ViewOptions& options);
 
-// Adds --view --clip --stereo --height-mm --no-labels --see-through.
+// Adds --view --clip --stereo --focus-mm --height-mm --no-labels --see-through.
 void add_view_options(CLI::App& command, ViewOptions& options);
 
 [[nodiscard]] bool shows_slice(const ViewOptions& options);

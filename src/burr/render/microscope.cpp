@@ -47,6 +47,11 @@ bool is_microscope(const Camera& camera) {
   return camera.field_of_view < kNarrow && camera.distance > 0.5 * kFar;
 }
 
+Focus microscope_focus(const Camera& camera, double beyond) {
+  constexpr double kPupil = 5e-3, kNearest = 10e-3;
+  return {std::max(camera.distance + beyond, kNearest), kPupil};
+}
+
 void light_coaxially(Look& look) {
   look.key = {{-0.20, 0.30, 1}, {1.0F, 0.98F, 0.94F}, 0.70};
   look.fill = {{0.30, -0.20, 1}, {0.92F, 0.96F, 1.0F}, 0.06};

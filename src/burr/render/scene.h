@@ -21,6 +21,7 @@
 #include "burr/render/changes.h"
 #include "burr/render/coarse_mesh.h"
 #include "burr/render/drape.h"
+#include "burr/render/focus.h"
 #include "burr/render/image.h"
 #include "burr/render/look.h"
 #include "burr/render/quality.h"
@@ -155,6 +156,7 @@ struct Scene {
   std::optional<ClipPlane> clip;  // of the bone
   bool round = false;             // only a circle is visible, as through a microscope or endoscope
   double vignette = 0;            // darkness in the corners, as a microscope's picture has, 0..1
+  std::optional<Focus> focus;     // depth of field; nullopt: everything is sharp
   std::shared_ptr<const Drape> drape;  // around the work, drawn only; nullptr: none
   std::vector<Inset> insets;           // over it
   bool scale_bar = false;         // bottom right; its length is true at the depth of the camera's

@@ -172,6 +172,8 @@ class Mill {
   void take_view(ViewKind kind);
   void first_view();
   void magnify(double by);
+  void deep_or_not();
+  void refocus(double by);
   [[nodiscard]] double aspect() const;
   void go_back();
   void keep();

@@ -433,6 +433,17 @@ void Mill::magnify(double by) {
   note(say(Word::view_field, render::kFields[render::kFirstField] / field, 1e3 * field));
 }
 
+// Depth of field under the microscope, on or off.
+void Mill::deep_or_not() {
+  if (views_.kind() != ViewKind::microscope) return note(word(Word::focus_scope));
+  views_.deep(!views_.deep());
+  note(word(views_.deep() ? Word::focus_on : Word::focus_off));
+}
+
+void Mill::refocus(double by) {
+  note(views_.refocus(by) ? say(Word::focus_at, 1e3 * views_.beyond()) : word(Word::focus_scope));
+}
+
 // Saves the present view, or returns to a saved one.
 void Mill::saved_view(int slot, bool keep) {
   if (keep) {

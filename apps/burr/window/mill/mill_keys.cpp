@@ -120,6 +120,15 @@ Mill::KeyRows Mill::view_keys(bool left_handed) {
            SDLK_f, [](Mill& m) { m.first_view(); }, word(Word::help_first_view))}},
       saved_view_keys(),
       {HelpBlock::view,
+       word(Word::key_focus),
+       Word::help_focus,
+       {item_key(
+            SDLK_F9, [](Mill& m) { m.deep_or_not(); }, word(Word::menu_deep), KMOD_SHIFT),
+        item_key(
+            SDLK_F11, [](Mill& m) { m.refocus(-1); }, word(Word::focus_nearer), KMOD_CTRL),
+        item_key(
+            SDLK_F12, [](Mill& m) { m.refocus(1); }, word(Word::focus_farther), KMOD_CTRL)}},
+      {HelpBlock::view,
        "F9  F11  F12",
        Word::help_looks,
        {item_key(

@@ -236,9 +236,12 @@ void Mill::panels() {
       leaf_ = steps_offered() && options_.allowed.steps == workshop::Offer::always ? Leaf::steps
                                                                                    : Leaf::none;
     if (!page_open()) {
-      const ViewsBar bar = draw_views_bar(ui, views_.kind(), scene_.camera.view_height());
+      const ViewsBar bar =
+          draw_views_bar(ui, views_.kind(), scene_.camera.view_height(),
+                         views_.deep() ? std::optional(views_.beyond()) : std::nullopt);
       if (bar.view) take_view(*bar.view);
       if (bar.magnify != 0) magnify(bar.magnify);
+      if (bar.refocus != 0) refocus(bar.refocus);
     }
     draw_pins();
     light_.draw(ui, scene_.camera);

@@ -104,6 +104,13 @@ bool Views::magnify(double by, render::Scene& scene) {
   return true;
 }
 
+bool Views::refocus(double by) {
+  if (kind_ != ViewKind::microscope) return false;
+  deep_ = true;
+  beyond_ = std::clamp(beyond_ + by * kFine, -kMostBeyond, kMostBeyond);
+  return true;
+}
+
 void Views::dress(render::Scene& scene) {
   if (!bare_) bare_ = scene.look;
   render::Look light = *bare_;
@@ -131,10 +138,13 @@ void Views::look(render::Scene& scene) {
   const bool shown = kind_ == ViewKind::microscope && scene.look.opacity >= 1 && !scene.clip &&
                      scene.camera.backward().dot(outward_) > kFacing;
   scene.drape = shown ? drape_ : nullptr;
+  scene.focus =
+      deep() ? std::optional(render::microscope_focus(scene.camera, beyond_)) : std::nullopt;
 }
 
 void Views::end(render::Scene& scene) const {
   scene.drape = nullptr;
+  scene.focus.reset();
   scene.round = false;
   scene.vignette = 0;
   if (!bare_) return;

@@ -33,6 +33,15 @@ class Views {
   void placed(const render::Scene& scene);
   // A step of magnification, nearer with by > 0. False: this is no microscope.
   bool magnify(double by, render::Scene& scene);
+  // Depth of field under the microscope: on, off; true when on. It needs a graphics card to be fast.
+  void deep(bool on) { deep_ = on; }
+  [[nodiscard]] bool deep() const { return deep_ && kind_ == ViewKind::microscope; }
+  // Moves the plane in focus by steps of kFine, away from the eye with by > 0; switches depth of field
+  // on. False: this is no microscope.
+  bool refocus(double by);
+  // How far beyond the target it is sharp [m].
+  [[nodiscard]] double beyond() const { return beyond_; }
+  static constexpr double kFine = 0.5e-3, kMostBeyond = 30e-3;  // [m]
   // Call it in each picture: whether the drape stands in the way of this eye, and whether the eye got
   // into bone.
   void look(render::Scene& scene);
@@ -52,7 +61,9 @@ class Views {
   std::optional<render::Camera> microscope_;    // as it was left
   std::optional<render::Look> bare_;            // the light of the other views
   render::Camera seen_;                         // that look() has checked
-  double wheel_ = 0;                            // part of a step
+  bool deep_ = false;
+  double beyond_ = 0;
+  double wheel_ = 0;  // part of a step
 };
 
 }  // namespace burr::app

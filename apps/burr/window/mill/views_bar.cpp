@@ -61,7 +61,7 @@ bool button(Ui& ui, const char* id, ImVec2 size, bool chosen, const std::string&
 
 }  // namespace
 
-ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field) {
+ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field, const std::optional<double>& beyond) {
   struct Entry {
     ViewKind kind;
     Word name;
@@ -74,7 +74,8 @@ ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field) {
   ViewsBar out;
   const float u = ui.unit();
   const bool scope = kind == ViewKind::microscope;
-  const float w = 8 * u + 4 * 37 * u + 4 * u, h = (scope ? 74 : 42) * u;
+  const bool deep = scope && beyond;
+  const float w = 8 * u + 4 * 37 * u + 4 * u, h = (deep ? 106 : scope ? 74 : 42) * u;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4 * u, 4 * u});
   ui.panel("##views", 104 * u, ui.height() - hud_height(ui) - h - 6 * u, w, h);
@@ -87,7 +88,10 @@ ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field) {
     icon(*ImGui::GetWindowDrawList(), entry.kind, {p.x + size.x / 2, p.y + size.y / 2}, 8 * u,
          chosen ? ink::kAccent : ink::kText);
   }
-  if (scope) {
+  // a row of "-", a text and "+"
+  const auto row = [&](const char* less, const char* more, Word less_does, Word more_does,
+                       const std::string& text) {
+    int pressed = 0;
     const ImVec2 p = ImGui::GetCursorScreenPos(), size = {26 * u, 26 * u};
     const auto sign = [&](ImVec2 at, bool plus) {
       ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -95,16 +99,22 @@ ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field) {
       draw.AddLine({c.x - 6 * u, c.y}, {c.x + 6 * u, c.y}, ink::kText, 1.8F * u);
       if (plus) draw.AddLine({c.x, c.y - 6 * u}, {c.x, c.y + 6 * u}, ink::kText, 1.8F * u);
     };
-    if (button(ui, "##less", size, false, word(Word::view_less))) out.magnify = -1;
+    if (button(ui, less, size, false, word(less_does))) pressed = -1;
     sign(p, false);
     const float right = p.x + 4 * 37 * u - 4 * u;
     ImGui::SetCursorScreenPos({right - size.x, p.y});
-    if (button(ui, "##more", size, false, word(Word::view_more))) out.magnify = 1;
+    if (button(ui, more, size, false, word(more_does))) pressed = 1;
     sign({right - size.x, p.y}, true);
-    ui.write(0.5F * (p.x + right), p.y + 6 * u, Ui::Letter::small, ink::kText,
-             say(Word::view_field, render::kFields[render::kFirstField] / field, 1e3 * field),
-             0.5F);
-  }
+    ui.write(0.5F * (p.x + right), p.y + 6 * u, Ui::Letter::small, ink::kText, text, 0.5F);
+    return pressed;
+  };
+  if (scope)
+    out.magnify =
+        row("##less", "##more", Word::view_less, Word::view_more,
+            say(Word::view_field, render::kFields[render::kFirstField] / field, 1e3 * field));
+  if (deep)
+    out.refocus = row("##nearer", "##farther", Word::focus_nearer, Word::focus_farther,
+                      say(Word::focus_at, 1e3 * *beyond));
   ImGui::End();
   ImGui::PopStyleVar(2);
   return out;

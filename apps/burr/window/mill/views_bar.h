@@ -14,8 +14,11 @@ namespace burr::app {
 struct ViewsBar {
   std::optional<ViewKind> view;  // was pressed
   int magnify = 0;               // -1, 1: was pressed
+  int refocus = 0;               // -1 nearer, 1 farther: was pressed
 };
-// field: height of the microscope's picture [m]
-[[nodiscard]] ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field);
+// field: height of the microscope's picture; beyond: how far beyond its target it is sharp, nullopt
+// without depth of field [m]
+[[nodiscard]] ViewsBar draw_views_bar(Ui& ui, ViewKind kind, double field,
+                                      const std::optional<double>& beyond);
 
 }  // namespace burr::app

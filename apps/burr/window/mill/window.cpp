@@ -76,6 +76,8 @@ void Mill::begin() {
     watch_.emplace(session_.bone(), *options_.lesson);
   pointer_.begin();
   first_view();
+  // without a graphics card it would cost every third picture
+  views_.deep(!desk_.renderer().software());
   desk_.cap.open();
   lift();
   hands_taken_ = Clock::now();

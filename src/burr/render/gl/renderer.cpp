@@ -52,6 +52,7 @@ Status Renderer::Work::start() {
   nothing.make();
   reads_depth = !context->es() && context->software();
   started = true;
+  if (const Status made = focusing.start(context->es()); !made) return made;
   return join.start(context->es());
 }
 
@@ -136,8 +137,9 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
   const Aabb bone = bounds(scene);
   gl::set_depths(whole, scene.camera, bone);
 
-  // tiles overlap by the reach of the hollows, in steps that keep the sampling pattern in place
-  const int margin = (margin_of(scene, whole) + 7) / 8 * 8;
+  // tiles overlap by the reach of the hollows and of what is unsharp, in steps that keep the sampling pattern in place
+  const int unsharp = scene.focus ? gl::most_unsharp(whole) : 0;
+  const int margin = (margin_of(scene, whole) + unsharp + 7) / 8 * 8;
   const auto step_for = [&](int size) {
     if (tile > 0) return (tile * factor + 8 * factor - 1) / (8 * factor) * (8 * factor);
     if (size <= w.most) return size;
@@ -175,6 +177,7 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
       parts.light_occlusion = has_occlusion(scene.look);
       if (parts.light_occlusion) parts.ambient_occlusion.add(frame.all());
       w.paint(scene, frame, parts, pieces);
+      if (const Status sharp = w.focus(scene, frame); !sharp) return sharp.error();
       const int left = inner.x0 / factor, top = height - inner.y1 / factor;
       const Status done = w.put_on_sheet(
           scene,

@@ -57,6 +57,13 @@ Result<bool> Target::resize(int wide, int high, int occlusion_stride) {
                              attach(occlusion_at, {occlusion.get()}, 0),
                              attach(soft_at, {soft.get()}, 0), attach(lit_at, {lit.get()}, 0)})
     if (!made) return made.error();
+  glDisable(GL_SCISSOR_TEST);
+  glDepthMask(GL_TRUE);
+  for (const Framebuffer* one : {&bone, &geometry}) {  // where nothing is drawn, nothing is near
+    const float farthest = 1;
+    glBindFramebuffer(GL_FRAMEBUFFER, one->get());
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+  }
   width = wide;
   height = high;
   stride = occlusion_stride;

@@ -15,6 +15,7 @@
 #include "burr/render/depth_tiles.h"
 #include "burr/render/gl/context.h"
 #include "burr/render/gl/draped.h"
+#include "burr/render/gl/focus_pass.h"
 #include "burr/render/gl/frame.h"
 #include "burr/render/gl/join.h"
 #include "burr/render/gl/lighting.h"
@@ -59,6 +60,7 @@ struct Renderer::Work {
   gl::Target target;
   // the picture; the lit samples at pixel size, where there are more pixels than samples
   gl::PictureBuffer sheet, stretched;
+  gl::PictureBuffer focused;  // the lit samples, as a lens draws them; of the eye drawn last
   gl::Region lit_anew;      // redrawn by the last paint(), in samples
   gl::VertexArray nothing;  // the screen triangle has no data, but OpenGL needs an array
   gl::Lighting lighting;
@@ -107,6 +109,7 @@ struct Renderer::Work {
   int eye = 0;
   bool started = false;
   gl::EyeJoiner join;
+  gl::FocusPass focusing;
   gl::PictureBuffer both;               // the joined picture of two eyes
   gl::PictureBuffer* on_show = &sheet;  // the sheet of the last show()
 
@@ -137,7 +140,8 @@ struct Renderer::Work {
   struct Size {
     int width = 0, height = 0;
   };
-  Status stretch(const gl::Rect& from, int wide, int high);
+  Status focus(const Scene& scene, const gl::Frame& frame);
+  Status stretch(const gl::Rect& from, int wide, int high, bool unsharp);
   Status put_on_sheet(const Scene& scene, const gl::Rect& from, int factor, const Size& size,
                       int width, int height, int left, int top);
   Parts compare(const Scene& scene, const gl::Frame& frame, const std::vector<gl::Piece>& pieces,

@@ -158,6 +158,7 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   held->pieces = pieces;
   if (!parts.bone.empty() || !parts.tool.empty() || !parts.ambient_occlusion.empty())
     paint(scene, frame, parts, pieces);
+  if (const Status sharp = focus(scene, frame); !sharp) return sharp;
   if (all) figures.redrawn = 1;
 
   return put_on_sheet(scene, frame.all(), factor, {wide, high}, wide, high, 0, 0);

@@ -234,16 +234,24 @@ void Renderer::Work::paint_occlusion(const Scene& scene, const Frame& frame, con
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+// Draws the lit samples as the scene's lens does.
+Status Renderer::Work::focus(const Scene& scene, const Frame& frame) {
+  if (!scene.focus) return fine();
+  glBindVertexArray(nothing.get());
+  const double height = 2 * scene.focus->distance * std::tan(0.5 * scene.camera.field_of_view);
+  return focusing.draw(*scene.focus, height, frame, target, focused);
+}
+
 // Enlarges the whole target to more pixels, but renews only what changed: enlarging costs more than
 // lighting.
-Status Renderer::Work::stretch(const Rect& from, int wide, int high) {
+Status Renderer::Work::stretch(const Rect& from, int wide, int high, bool unsharp) {
   const bool kept = stretched.width == wide && stretched.height == high;
   if (const Status sized = stretched.resize(wide, high); !sized) return sized;
-  if (!kept) {
+  if (!kept || unsharp) {  // a sample that changed changes those around it
     lit_anew = {};
     lit_anew.add(from);
   }
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, target.lit_at.get());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, (unsharp ? focused.at : target.lit_at).get());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, stretched.at.get());
   glEnable(GL_SCISSOR_TEST);
   const double x = static_cast<double>(wide) / (from.x1 - from.x0),
@@ -268,6 +276,7 @@ Status Renderer::Work::stretch(const Rect& from, int wide, int high) {
 Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int factor,
                                     const Size& size, int width, int height, int left, int top) {
   const auto [wide, high] = size;
+  const bool unsharp = scene.focus.has_value();
   const Status sized = sheet.resize(wide, high);
   if (!sized) return sized;
   glBindFramebuffer(GL_FRAMEBUFFER, sheet.at.get());
@@ -275,15 +284,18 @@ Status Renderer::Work::put_on_sheet(const Scene& scene, const Rect& from, int fa
   if (factor == 1) {
     const bool same_size = wide == from.x1 - from.x0 && high == from.y1 - from.y0;
     if (!same_size)
-      if (const Status done = stretch(from, wide, high); !done) return done;
+      if (const Status done = stretch(from, wide, high, unsharp); !done) return done;
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, sheet.at.get());
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, (same_size ? target.lit_at : stretched.at).get());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, (!same_size ? stretched.at
+                                            : unsharp  ? focused.at
+                                                       : target.lit_at)
+                                               .get());
     const Rect all = same_size ? from : Rect{0, 0, wide, high};
     glBlitFramebuffer(all.x0, all.y0, all.x1, all.y1, 0, 0, wide, high, GL_COLOR_BUFFER_BIT,
                       GL_NEAREST);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, sheet.at.get());
   } else {
-    gl::bind(0, target.lit);
+    gl::bind(0, unsharp ? focused.colour : target.lit);
     shrink.use();
     shrink.set("picture", 0);
     shrink.set("factor", factor);
