@@ -61,8 +61,8 @@ struct Renderer::Work {
   // the picture; the lit samples at pixel size, where there are more pixels than samples
   gl::PictureBuffer sheet, stretched;
   gl::PictureBuffer focused;  // the lit samples, as a lens draws them; of the eye drawn last
-  gl::Region lit_anew;      // redrawn by the last paint(), in samples
-  gl::VertexArray nothing;  // the screen triangle has no data, but OpenGL needs an array
+  gl::Region lit_anew;        // redrawn by the last paint(), in samples
+  gl::VertexArray nothing;    // the screen triangle has no data, but OpenGL needs an array
   gl::Lighting lighting;
   gl::SeeThrough through;
   gl::SkinPrograms skins;
