@@ -19,7 +19,8 @@ constexpr double kAbove = 3e-3;    // of the next start, for the way [m]
 constexpr double kSpread = 0.5;    // of the burr's radius: so far beside it material is added [-]
 constexpr double kPiece = 0.5e-3;  // in which a stroke is looked at [m]
 constexpr std::uint32_t kBan = 6;  // calls in which a node is left out after a try
-constexpr std::uint32_t kPatience = 60;  // calls without progress until the surgeon gives up
+constexpr std::uint32_t kPatience = 20;  // calls without progress until a smaller burr is taken
+constexpr double kSmaller = 0.7;         // the next burr
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 bool is_empty(const volume::Bone& bone, const Ijk& at) {
@@ -28,27 +29,34 @@ bool is_empty(const volume::Bone& bone, const Ijk& at) {
 
 }  // namespace
 
-FieldGrid filling_of(const scenario::CaseRegion& region, const Believed& believed,
-                     const Spare& spare) {
-  FieldGrid out = spare.free;
+Filling filling_of(const scenario::CaseRegion& region, const Believed& believed,
+                   const Spare& spare, const Vec3& out) {
+  Filling filling;
+  filling.gap = spare.free;
+  FieldGrid& gap = filling.gap;
   const Believed::Depth depth = believed.region(region);
-  for (std::size_t n = 0; n < out.nodes(); ++n)
-    out.value[n] = std::min(out.value[n], static_cast<float>(std::max(-1.0, depth(out.node(n)))));
-  return out;
+  for (std::size_t n = 0; n < gap.nodes(); ++n)
+    gap.value[n] = std::min(gap.value[n], static_cast<float>(std::max(-1.0, depth(gap.node(n)))));
+  filling.rise = behind(gap, out);
+  for (std::size_t n = 0; n < gap.nodes(); ++n)
+    filling.rise.value[n] = std::min(filling.rise.value[n], spare.free.value[n]);
+  return filling;
 }
 
-FillWork::FillWork(const volume::Bone& bone, const scenario::Step& step, const FieldGrid& plan,
+FillWork::FillWork(const volume::Bone& bone, const scenario::Step& step, const Filling& plan,
                    const Vec3& out, const Skill& skill, double case_diameter)
     : plan_(plan), skill_(skill), out_(out) {
   double diameter = case_diameter * skill.burrs.middle;
   if (step.diameter && skill.burrs.heeds_step)
     diameter = std::clamp(diameter, step.diameter->first, step.diameter->second);
-  diameter = std::clamp(diameter, std::max(tool::kSmallestDiameter, 4 * bone.grid().voxel),
-                        tool::kLargestDiameter);
+  const double least = std::max(tool::kSmallestDiameter, 4 * bone.grid().voxel);
+  diameter = std::clamp(diameter, least, tool::kLargestDiameter);
   burr_.radius = 0.5 * diameter;
-  for (std::size_t n = 0; n < plan.nodes(); ++n) {
-    if (static_cast<double>(plan.value[n]) < kSkin) continue;
-    Node node{plan.node(n), {}, 0};
+  // what a burr cannot reach, a smaller one of the step can
+  smallest_ = 0.5 * std::max(least, step.diameter ? step.diameter->first : diameter);
+  for (std::size_t n = 0; n < plan.gap.nodes(); ++n) {
+    if (static_cast<double>(plan.gap.value[n]) < kSkin) continue;
+    Node node{plan.gap.node(n), {}, 0};
     node.voxel = (bone.grid().grid_from_world(node.at).array() + 0.5).floor().cast<int>();
     if (is_empty(bone, node.voxel)) nodes_.push_back(node);
   }
@@ -70,7 +78,7 @@ void FillWork::look(const volume::Bone& bone, const Vec3& hand) {
 
 // Is there bone just below, seen from the surgeon?
 bool FillWork::on_surface(const volume::Bone& bone, const Node& node) const {
-  return volume::depth_at(bone, node.at - plan_.spacing() * out_) > 0;
+  return volume::depth_at(bone, node.at - plan_.gap.spacing() * out_) > 0;
 }
 
 NextStroke FillWork::stroke_at(const volume::Bone& bone, const Node& node,
@@ -89,7 +97,7 @@ NextStroke FillWork::stroke_at(const volume::Bone& bone, const Node& node,
   // on the line, as far as the plan is not full; material spreads to the sides of the burr
   const double wide = kSpread * burr_.radius;
   const auto fits = [&](double s) {
-    return plan_.at(node.at + (s + std::copysign(wide, s)) * stroke.along) > 0;
+    return plan_.rise.at(node.at + (s + std::copysign(wide, s)) * stroke.along) > 0;
   };
   const double length = skill_.stroke * std::exp(0.3 * random.normal());
   double ahead = 0, behind = 0;
@@ -112,8 +120,11 @@ std::optional<NextStroke> FillWork::next(const volume::Bone& bone, const Vec3& h
     calls_then_ = calls_;
   }
   if (calls_ - calls_then_ > kPatience) {
-    exhausted_ = true;
-    return std::nullopt;
+    exhausted_ = burr_.radius <= smallest_;
+    if (exhausted_) return std::nullopt;
+    burr_.radius = std::max(smallest_, kSmaller * burr_.radius);
+    calls_then_ = calls_;
+    for (Node& node : nodes_) node.banned = 0;
   }
   std::size_t found = kNone;
   double most = -std::numeric_limits<double>::infinity();
@@ -122,7 +133,7 @@ std::optional<NextStroke> FillWork::next(const volume::Bone& bone, const Vec3& h
     const Node& node = nodes_[n];
     if (node.banned > calls_ || !on_surface(bone, node)) continue;
     double worth = -1e3 * node.at.dot(out_) - 0.1e3 * (node.at - hand).norm();
-    const double beside = kSpread * burr_.radius - plan_.at(node.at);  // too near to the border
+    const double beside = kSpread * burr_.radius - plan_.rise.at(node.at);  // too near to the border
     worth -= 0.5e3 * std::max(0.0, beside);
     worth += 0.5 * std::fmod(luck + 0.6180339887498949 * static_cast<double>(n), 1.0);
     if (worth <= most) continue;

@@ -1,11 +1,12 @@
 // surgeon/fill_work.h - one step of a case in which a gap is filled: what is still empty, and where the
 // next stroke begins.
 //
-// A node of the plan counts as long as its voxel is empty and lies at least kSkin below the plan's
-// border: what the gap is believed to be, less what must stay free. The next stroke begins on the
+// A node of the gap counts as long as its voxel is empty and lies at least kSkin below the gap's
+// border: what it is believed to be, less what must stay free. The next stroke begins on the
 // surface under the deepest empty nodes, seen along the way out, at a short way from the hand; so the
-// gap fills from its floor in layers. The hand lifts where the surface under the burr has come up to
-// the border (SurgeonHand::look_at).
+// gap fills from its floor in layers. The hand lifts where the place at which the burr touches has
+// come up to the border towards the surgeon (SurgeonHand::look_at): the floor and the walls of a gap
+// are no border for that, so they are the gap's depth nearer to the surgeon, or 0.
 //
 // Frame: world. Units: SI. Thread: the one that runs the ticks, between two of them. Cost: a pass over
 // the nodes of the gap a call.
@@ -23,11 +24,22 @@
 
 namespace burr::surgeon {
 
+// What is to be filled in a step, as this surgeon believes it.
+struct Filling {
+  // depth below the border of the region and of what lies `margin` and more away from all that must
+  // stay whole
+  FieldGrid gap;
+  // the largest such depth here and straight ahead on the way out: how far material may still rise
+  FieldGrid rise;
+};
+// out: unit, to the surgeon.
+[[nodiscard]] Filling filling_of(const scenario::CaseRegion& region, const Believed& believed,
+                                 const Spare& spare, const math::Vec3& out);
+
 class FillWork final : public Work {
  public:
-  // plan: depth below the border of what is to be filled; must outlive this. out: unit, to the
-  // surgeon. case_diameter: of the case's burr [m].
-  FillWork(const volume::Bone& bone, const scenario::Step& step, const FieldGrid& plan,
+  // plan must outlive this. out: unit, to the surgeon. case_diameter: of the case's burr [m].
+  FillWork(const volume::Bone& bone, const scenario::Step& step, const Filling& plan,
            const math::Vec3& out, const Skill& skill, double case_diameter);
 
   [[nodiscard]] double left() const override;
@@ -48,19 +60,15 @@ class FillWork final : public Work {
   [[nodiscard]] NextStroke stroke_at(const volume::Bone& bone, const Node& node,
                                      people::RandomStream& random) const;
 
-  const FieldGrid& plan_;
+  const Filling& plan_;
   Skill skill_;
   math::Vec3 out_;
   HeldBurr burr_;
+  double smallest_ = 0;  // radius of the least burr that is taken [m]
   std::vector<Node> nodes_;  // empty still
   std::size_t all_ = 0, left_then_ = 0;
   std::uint32_t calls_ = 0, calls_then_ = 0;
   bool exhausted_ = false;
 };
-
-// What is to be filled in a step, as this surgeon believes it: depth below the border of `region` and
-// of what lies `margin` and more away from all that must stay whole.
-[[nodiscard]] FieldGrid filling_of(const scenario::CaseRegion& region, const Believed& believed,
-                                   const Spare& spare);
 
 }  // namespace burr::surgeon

@@ -106,6 +106,13 @@ Vec3 FieldGrid::node(std::size_t n) const {
   return frame_ * (spacing_ * ijk);
 }
 
+FieldGrid behind(const FieldGrid& field, const Vec3& out) {
+  FieldGrid result = field;
+  sweep(result, -(field.axes().conjugate() * out),
+        [](std::size_t, double here, double back, double) { return std::max(here, back); });
+  return result;
+}
+
 std::vector<Vec3> approach_of(const scenario::Lesson& lesson) {
   return lesson.approach.empty() ? std::vector<Vec3>{Vec3::UnitZ()} : lesson.approach;
 }

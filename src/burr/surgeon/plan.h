@@ -48,6 +48,9 @@ class FieldGrid {
   math::Pose frame_;
 };
 
+// The largest value at a point and straight ahead of it in the direction `out` (unit).
+[[nodiscard]] FieldGrid behind(const FieldGrid& field, const math::Vec3& out);
+
 // The least D_S(p) - m_S over all structures that are spared, and the least believed D_S(p) over
 // those that a step of the case names as spared.
 struct Spare {

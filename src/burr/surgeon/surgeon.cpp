@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "burr/surgeon/fill_work.h"
 #include "burr/surgeon/step_work.h"
 #include "burr/volume/sample.h"
 
@@ -76,10 +75,10 @@ void Surgeon::begin_step(const volume::Bone& bone, Consulted& out) {
   const std::vector<Vec3> approach = approach_of(lesson_, step);
   if (step.adds != adds_) out.adds = adds_ = step.adds;
   if (step.adds) {
-    filling_ = filling_of(*lesson_.region(step.region), believed_, spare_);
     out_ = approach.front();
+    filling_ = filling_of(*lesson_.region(step.region), believed_, spare_, out_);
     work_ = std::make_unique<FillWork>(bone, step, filling_, out_, skill_, case_diameter_);
-    working_->look_at(&filling_, &spare_.near, true);
+    working_->look_at(&filling_.rise, &spare_.near, true);
     return;
   }
   const FieldGrid goal = goal_of(*lesson_.region(step.region), approach, believed_, spare_);

@@ -25,6 +25,7 @@
 #include "burr/base/result.h"
 #include "burr/scenario/lesson.h"
 #include "burr/surgeon/believed.h"
+#include "burr/surgeon/fill_work.h"
 #include "burr/surgeon/plan.h"
 #include "burr/surgeon/skill.h"
 #include "burr/surgeon/surgeon_hand.h"
@@ -97,7 +98,7 @@ class Surgeon {
   Believed believed_;
   Spare spare_;
   FieldGrid allowed_;  // the goals of this step and of those before it
-  FieldGrid filling_;  // of a step that adds
+  Filling filling_;    // of a step that adds
   bool adds_ = false;  // the burr adds material
   std::unique_ptr<SurgeonHand> hand_;
   SurgeonHand* working_ = nullptr;

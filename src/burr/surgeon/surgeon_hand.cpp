@@ -23,7 +23,8 @@ constexpr double kAhead = 0.5e-3;  // a stroke turns this far before the goal en
 constexpr double kSlack = 0.1e-3;  // by more than this; it lifts where less is missing [m]
 constexpr double kFarAway = 4e-3;  // beyond it the force is the whole one [m]
 constexpr double kTurning = 4.0;   // of the shaft [1/s]
-constexpr double kRing = 0.2;      // of the radius: so high material rises around the burr [-]
+constexpr double kRing = 0.1;      // of the radius: so high material rises around the burr [-]
+constexpr double kFelt = 0.05;     // a smaller force does not say where the burr touches [N]
 constexpr double kGently = 0.15;   // of the pedal: material is added in thin layers [-]
 
 }  // namespace
@@ -74,15 +75,18 @@ void SurgeonHand::retreat(const Vec3& out, double distance) {
 
 double SurgeonHand::room(const Vec3& p) const BURR_RT {
   if (goal_ == nullptr) return 1;
-  return adds_ ? goal_->at(p + (1 - kRing) * radius_ * stroke_.into) : goal_->at(p) - radius_;
+  if (!adds_) return goal_->at(p) - radius_;
+  const double felt = math::norm(force_);
+  const Vec3 towards = felt > kFelt ? Vec3(-force_ / felt) : stroke_.into;  // what it touches
+  return goal_->at(p + radius_ * towards) - kRing * radius_;
 }
 
 void SurgeonHand::reach_bone() BURR_RT {
   phase_ = Phase::stroking;
-  full_ = false;
+  full_ = adds_;
   done_ = 0;
   sense_ = 1;
-  rooms_.fill(1);
+  rooms_.fill(adds_ ? 0 : 1);  // who adds looks first
 }
 
 void SurgeonHand::go(double dt) BURR_RT {
@@ -114,7 +118,7 @@ void SurgeonHand::stroke(double dt) BURR_RT {
       static_cast<double>(rooms_[(tick_ + kMemory - delay_) % kMemory]);  // T_stop ago
   ++tick_;
   stroked_ += dt;
-  full_ = adds_ && seen < 0;
+  full_ = adds_ && seen <= 0;
   const double near = near_ != nullptr ? std::max(0.0, near_->at(burr) - radius_) : kFarAway;
   const double share = skill_.restraint + (1 - skill_.restraint) * std::min(1.0, near / kFarAway);
   const double wanted = skill_.force * share * uneven_.next();

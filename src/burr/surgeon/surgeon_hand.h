@@ -8,8 +8,8 @@
 // ended, the hand lifts along the way out, the surgeon's stop delay later: away from the bone that it
 // presses on could be into what must stay. What pushes against the way slows it down.
 // Nothing here knows the bone; the goal (plan.h) is what the surgeon believes. A hand that adds material
-// presses in the same way; for it the goal has ended where the surface under the burr, on the side
-// of the bone, has come up to the border of the plan (fill_work.h); then the foot leaves the pedal too.
+// presses in the same way; for it the goal has ended where the place at which the burr touches has
+// come up to the border of the plan (fill_work.h); then the foot leaves the pedal too.
 //
 // Frame: world. Units: SI. Thread: state(), write_force() servo, without allocation; all else on the
 // thread that runs the ticks, between two of them, or before.
