@@ -29,8 +29,8 @@ bool is_empty(const volume::Bone& bone, const Ijk& at) {
 
 }  // namespace
 
-Filling filling_of(const scenario::CaseRegion& region, const Believed& believed,
-                   const Spare& spare, const Vec3& out) {
+Filling filling_of(const scenario::CaseRegion& region, const Believed& believed, const Spare& spare,
+                   const Vec3& out) {
   Filling filling;
   filling.gap = spare.free;
   FieldGrid& gap = filling.gap;
@@ -133,7 +133,8 @@ std::optional<NextStroke> FillWork::next(const volume::Bone& bone, const Vec3& h
     const Node& node = nodes_[n];
     if (node.banned > calls_ || !on_surface(bone, node)) continue;
     double worth = -1e3 * node.at.dot(out_) - 0.1e3 * (node.at - hand).norm();
-    const double beside = kSpread * burr_.radius - plan_.rise.at(node.at);  // too near to the border
+    const double beside =
+        kSpread * burr_.radius - plan_.rise.at(node.at);  // too near to the border
     worth -= 0.5e3 * std::max(0.0, beside);
     worth += 0.5 * std::fmod(luck + 0.6180339887498949 * static_cast<double>(n), 1.0);
     if (worth <= most) continue;

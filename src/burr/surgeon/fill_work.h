@@ -64,7 +64,7 @@ class FillWork final : public Work {
   Skill skill_;
   math::Vec3 out_;
   HeldBurr burr_;
-  double smallest_ = 0;  // radius of the least burr that is taken [m]
+  double smallest_ = 0;      // radius of the least burr that is taken [m]
   std::vector<Node> nodes_;  // empty still
   std::size_t all_ = 0, left_then_ = 0;
   std::uint32_t calls_ = 0, calls_then_ = 0;
