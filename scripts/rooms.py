@@ -58,7 +58,7 @@ ONLY = {
     ("record", "device"): {"hand.h"},
     ("record", "haptics"): {"contact.h"},
     ("record", "edit"): {"ledger.h", "mirror.h"},
-    ("record", "tool"): {"burr_tool.h", "state.h"},
+    ("record", "tool"): {"burr_tool.h", "state.h", "shaped_tool.h"},
     ("metrics", "tick"): {"rows.h"},
     ("metrics", "tool"): {"burr_tool.h", "state.h"},
     ("scoring", "record"): {"player.h", "course.h"},

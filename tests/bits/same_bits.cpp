@@ -29,6 +29,7 @@
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "burr/rt/flags.h"
+#include "burr/scenario/rack.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
@@ -96,6 +97,8 @@ struct Plan {
   tool::BurrKind kind = tool::BurrKind::cutting;
   device::ArmSettings arm = {};
   std::vector<CommandAt> commands = {};
+  const char* tool = nullptr;  // of the rack; nullptr: the burr
+  haptics::Method touch = haptics::Method::constraint;
 };
 
 void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
@@ -106,6 +109,12 @@ void mill(const char* name, const Plan& plan, const std::function<Bone()>& make,
   settings.servo.burr.radius = 0.5e-3 * plan.burr_mm;
   settings.servo.burr.kind = plan.kind;
   settings.servo.undo_bricks = 2048;
+  settings.servo.touch = plan.touch;
+  if (plan.tool != nullptr) {
+    const auto tool = take(scenario::built_in_rack().get(plan.tool));
+    settings.servo.tools = {{tool.name, tool.tool, tool.cutter}};
+    settings.servo.tool = 0;
+  }
   settings.realtime = options.realtime;
   settings.threads = options.threads;
   Bone bone = make();
@@ -210,6 +219,24 @@ void all(const Options& options) {
         "slot", {.motion = "slot", .seconds = 2, .burr_mm = 5},
         [&] { return take(phantom::phantom("temporal-bone", 0.9, quiet, 256, options.threads)); },
         options);
+  const auto even = [&] {
+    return phantom::bone_from_distance(
+        phantom::box_grid(Vec3::Constant(-8e-3), Vec3::Constant(8e-3), 0.25e-3), {},
+        phantom::slab(), 256, options.threads);
+  };
+  if (wanted("saw"))
+    mill("saw",
+         {.motion = "slot",
+          .seconds = 2,
+          .burr_mm = 4,
+          .commands = {command(1200, Kind::undo), command(1600, Kind::mirror_i, 20)},
+          .tool = "sagittal-saw"},
+         even, options);
+  if (wanted("flame"))
+    mill("flame", {.motion = "pocket", .seconds = 2, .burr_mm = 4, .tool = "flame"}, even, options);
+  if (wanted("shaft"))
+    mill("shaft", {.motion = "plunge", .seconds = 2, .burr_mm = 3, .touch = haptics::Method::shaft},
+         even, options);
   if (wanted("touch"))
     mill(
         "touch", {.motion = "touch", .seconds = 2, .burr_mm = 4, .arm = {.stiffness = INFINITY}},

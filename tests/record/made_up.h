@@ -69,6 +69,8 @@ inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
   row.contact.normal = any_vec3(random);
   row.contact.force = any_vec3(random);
   row.contact.torque = any_vec3(random);
+  row.contact.unsent_torque = any_vec3(random);
+  row.contact.turn = any_vec3(random);
   row.contact.depth = any(random);
   row.contact.active = static_cast<int>(random() % 4);
   row.contact.candidates = static_cast<int>(random() % 1000) - 1;
@@ -88,6 +90,7 @@ inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
   row.tool.mirror_axis = static_cast<int>(tools() % 4) - 1;
   row.tool.mirror_twice = static_cast<int>(tools() % 1000);
   row.tool.irrigated = tools() % 2 == 0;
+  row.tool.number = static_cast<int>(tools() % 5) - 1;
   row.took_us = static_cast<float>(any(random));
   row.late_us = static_cast<float>(any(random));
   row.hash = random();
@@ -114,6 +117,8 @@ inline void expect_same(const tick::TickRow& a, const tick::TickRow& b) {
   EXPECT_TRUE(same3(a.contact.normal, b.contact.normal)) << a.tick;
   EXPECT_TRUE(same3(a.contact.force, b.contact.force)) << a.tick;
   EXPECT_TRUE(same3(a.contact.torque, b.contact.torque)) << a.tick;
+  EXPECT_TRUE(same3(a.contact.unsent_torque, b.contact.unsent_torque)) << a.tick;
+  EXPECT_TRUE(same3(a.contact.turn, b.contact.turn)) << a.tick;
   EXPECT_TRUE(same(a.contact.depth, b.contact.depth)) << a.tick;
   EXPECT_EQ(a.contact.active, b.contact.active);
   EXPECT_EQ(a.contact.candidates, b.contact.candidates);

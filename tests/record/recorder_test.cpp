@@ -119,10 +119,10 @@ TEST(Recorder, EveryFieldOfATickHasAColumn) {
   fields += sizeof(edit::Ledger);       // doubles only, no padding
   fields += sizeof(device::HandState);  // has 3 byte of padding after `valid`
   fields += sizeof(haptics::Contact);   // 3 byte after `touching`
-  fields += sizeof(tool::ToolState);    // 7 byte at its end
+  fields += sizeof(tool::ToolState);    // 3 byte after `irrigated`
   EXPECT_EQ(fields, sizeof(tick::TickRow))
       << "a new field in TickRow: add its column in schema.cpp";
-  EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3 - 7)
+  EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3 - 3)
       << "a new field in HandState, Contact, Ledger or ToolState: add its column in schema.cpp";
 }
 
@@ -142,7 +142,7 @@ TEST(Recorder, AToolThatStaysCostsAMessageOneValueAColumn) {
   const std::size_t same = size();
   rows[9].tool.irrigated = !rows[9].tool.irrigated;
   const std::size_t changed = size();
-  EXPECT_EQ(changed - same, 9 * (8 + 8 + 4 * 4 + 1U)) << "then each row has its own";
+  EXPECT_EQ(changed - same, 9 * (8 + 8 + 4 * 5 + 1U)) << "then each row has its own";
 }
 
 TEST(Recorder, ToolsThatCannotBeMakeAMessageMalformed) {

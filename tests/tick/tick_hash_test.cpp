@@ -16,7 +16,7 @@ using namespace record::test;
 // shows here. Tool and undone volume are not in the hash, so that recordings from before they were written down keep
 // theirs.
 TEST(TickHash, SeesEveryFieldButToolUndoneTimesAndItself) {
-  constexpr std::size_t kTool = 8 + 8 + 4 * 4 + 1;
+  constexpr std::size_t kTool = 8 + 8 + 4 * 5 + 1;
   BURR_SEEDED(random, 71);
   TickRow row = any_tick(5, random);
   row.hand.valid = row.contact.touching = false;

@@ -42,7 +42,9 @@ Status run(const Options& options) {
   auto work = open_work(requested, progress());
   if (!work) return work.error();
   for (const std::string& notice : work->summary.notices) fmt::print(stderr, "{}\n", notice);
-  const sim::SessionSettings settings = settings_of(requested, true);
+  const auto chosen = settings_of(requested, true);
+  if (!chosen) return chosen.error();
+  const sim::SessionSettings& settings = *chosen;
   math::Pose start;
   start.p = work->place.at - kAbove * work->place.into;
   start.q = math::shortest_rotation(math::Vec3::UnitZ(), -work->place.into);

@@ -26,6 +26,7 @@
 #include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/recording.h"
+#include "commands/tool_options.h"
 #include "commands/volume_words.h"
 
 namespace burr::app {
@@ -38,6 +39,7 @@ struct Options {
   PictureSize size;
   std::string path_csv, motion_name, record, picture, arm = "firm", touch = "constraint",
                                                       removal = "energy", mirror;
+  ToolOptions tool;
   std::vector<double> at_mm, into;
   double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
   std::size_t undo_bricks = tick::ServoSettings{}.undo_bricks;
@@ -238,6 +240,7 @@ Status run(const Options& options) {
   settings.realtime = options.realtime;
   settings.servo.rate_hz = options.rate_hz;
   settings.servo.touch = *haptics::method_named(options.touch);
+  if (const Status taken = take_tool(options.tool, settings.servo); !taken) return taken;
   settings.servo.removal = options.removing;
   settings.servo.removal.law = *edit::law_named(options.removal);
   settings.servo.guarded = options.guarded;
@@ -329,6 +332,7 @@ void add(CLI::App& app, Todo& todo) {
       ->expected(3);
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr, 0.6 to 7")
       ->capture_default_str();
+  add_tool_options(*command, options->tool);
   command->add_flag("--diamond", options->diamond, "diamond burr: a quarter of the removal rate");
   command->add_option("--rpm", options->rpm, "speed of the spindle; below 0 it turns backwards")
       ->check(CLI::Range(-400000.0, 400000.0))
@@ -360,8 +364,10 @@ void add(CLI::App& app, Todo& todo) {
       ->check(CLI::IsMember({"firm", "light", "rigid"}))
       ->capture_default_str();
   command
-      ->add_option("--touch", options->touch,
-                   "method of touch: constraint (burr's own), or another for comparison")
+      ->add_option(
+          "--touch", options->touch,
+          "method of touch: constraint (burr's own), shaft (the burr's shaft touches too), or "
+          "another for comparison")
       ->check(CLI::IsMember(haptics::kMethodNames))
       ->capture_default_str();
   command->add_option("--removal", options->removal, "law of removal")

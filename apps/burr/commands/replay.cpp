@@ -25,6 +25,7 @@
 #include "burr/workshop/sound_tracker.h"
 #include "burr/workshop/spared.h"
 #include "burr/workshop/spared_distance.h"
+#include "burr/workshop/tool_looks.h"
 #include "burr/workshop/traces.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
@@ -71,6 +72,10 @@ ViewOptions view_of(const Options& options, const record::Player& player) {
 void put_drawn_tool(render::Scene& scene, const tick::TickRow& row, const record::Player& player,
                     bool contact, render::HeldTool& held, double seconds) {
   workshop::put_tool(scene, row, contact);
+  if (row.tool.number >= 0) {  // its direction matters to what it cuts: drawn as it was held
+    workshop::ToolLooks(player.info().tools).put(scene, row.tool.number);
+    return;
+  }
   const auto device = player.info().words.find("device");
   if (device == player.info().words.end() || device->second != "mouse") return;
   scene.burr.world_from_tool = held.at(scene, scene.burr.world_from_tool.p, false, seconds);

@@ -22,6 +22,7 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/seen.h"
 #include "burr/workshop/spared.h"
+#include "burr/workshop/tool_looks.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
@@ -115,7 +116,9 @@ Summary summary_of(sim::Session& session, const std::string& what, const std::st
 // the tool in its last state of the session
 void put_tool_of(render::Scene& scene, sim::Session& session) {
   tick::TickRow row;
-  if (session.view(row)) workshop::put_tool(scene, row, true);
+  if (!session.view(row)) return;
+  workshop::put_tool(scene, row, true);
+  workshop::ToolLooks(session.settings().servo.tools).put(scene, row.tool.number);
 }
 
 // What the pictures show. Nobody is there whom help could be shown.
@@ -139,7 +142,9 @@ Status run_headless(const Options& options) {
   if (!opened) return opened.error();
   workshop::Prepared& work = *opened;
   for (const std::string& notice : work.summary.notices) fmt::print(stderr, "{}\n", notice);
-  const sim::SessionSettings settings = settings_of(requested, false);
+  const auto chosen = settings_of(requested, false);
+  if (!chosen) return chosen.error();
+  const sim::SessionSettings& settings = *chosen;
   auto path = surgeon::motion(requested.motion, work.place, settings.servo.burr.radius, seconds);
   if (!path) return path.error();
   auto started =
@@ -360,6 +365,15 @@ void add(CLI::App& app, Todo& todo) {
                       "PNG of the window when it closed, with panels");
   command->add_option("--burr-mm", options->work.burr_mm,
                       "diameter of the burr (default: that of the case, otherwise 5)");
+  add_tool_options(*command, options->work.tool);
+  command
+      ->add_option_function<std::string>(
+          "--touch",
+          [options](const std::string& name) {
+            options->work.touch = *haptics::method_named(name);
+          },
+          "shaft: the burr's shaft touches the bone too (default: constraint, the head alone)")
+      ->check(CLI::IsMember({"constraint", "shaft"}));
   command->add_flag("--no-sound", options->no_sound, "the window makes no sound");
   command->add_flag("--xr", options->xr, "use a headset through OpenXR")->excludes("--headless");
   command->add_option("--rpm", options->work.rpm,

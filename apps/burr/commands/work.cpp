@@ -78,13 +78,15 @@ Result<workshop::Prepared> open_work(WorkOptions& options, Progress& progress,
   return prepared;
 }
 
-sim::SessionSettings settings_of(const WorkOptions& options, bool realtime) {
+Result<sim::SessionSettings> settings_of(const WorkOptions& options, bool realtime) {
   sim::SessionSettings settings;
   settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
   settings.servo.burr.kind = options.kind;
   settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
   settings.servo.mode = options.mode;
   settings.servo.irrigated = options.irrigated;
+  settings.servo.touch = options.touch;
+  if (const Status taken = take_tool(options.tool, settings.servo); !taken) return taken.error();
   settings.realtime = realtime;
   return settings;
 }

@@ -17,6 +17,7 @@
 #include "burr/sim/session.h"
 #include "burr/workshop/hand_device.h"
 #include "burr/workshop/prepare.h"
+#include "commands/tool_options.h"
 
 namespace burr::app {
 
@@ -34,7 +35,9 @@ struct WorkOptions {
   workshop::HandRequest hand;   // in the window
   std::string suction;          // in the window: a device for the other hand; empty: none
   std::string told_as;          // in the window: name of the published CRTK arm; empty: none
-  record::Identity identity;    // mode, learner and attempt, for the recording
+  ToolOptions tool;             // of the rack
+  haptics::Method touch = haptics::Method::constraint;
+  record::Identity identity;  // mode, learner and attempt, for the recording
   // only from a case
   std::string title;                   // one line; empty for a scan
   std::optional<math::Vec3> at, into;  // where and how milling begins
@@ -63,6 +66,7 @@ void take_case(WorkOptions& options, const scenario::Case& work);
 [[nodiscard]] Result<workshop::Prepared> open_work(WorkOptions& options, Progress& progress,
                                                    const io::Scan* scan = nullptr);
 
-[[nodiscard]] sim::SessionSettings settings_of(const WorkOptions& options, bool realtime);
+// Error: as take_tool().
+[[nodiscard]] Result<sim::SessionSettings> settings_of(const WorkOptions& options, bool realtime);
 
 }  // namespace burr::app

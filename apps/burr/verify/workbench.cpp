@@ -44,7 +44,7 @@ std::vector<Workbench::Row> Workbench::work(const device::HandPath& path,
     Row row;
     row.t = static_cast<double>(n) * dt;
     row.hand = hand_.state().world_from_tool.p;
-    if (!hand_.engaged()) hand_.begin_at(row.hand);
+    if (!hand_.engaged()) hand_.begin_at({row.hand, math::Quat::Identity()});
     hand_.filter_velocity();
     touch_by_.show(tick_++);
     hand_.feel();

@@ -13,6 +13,8 @@
 #include <optional>
 #include <string_view>
 
+#include "burr/haptics/tool_contact.h"
+#include "burr/math/pose.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 #include "burr/volume/iso_vertices.h"
@@ -27,15 +29,21 @@ enum class Method {
   samples,         // Vidholm & Agmund 2004: points on the burr in bone give the direction
   triangles,       // a god object on the triangles of the picture
   penalty,         // springs at points on the burr, in balance with the hand's spring
+  shaft,           // six/shaft_touch.h: as constraint, and the shaft touches too
 };
-inline constexpr int kMethods = 7;
+inline constexpr int kMethods = 8;
 
 inline constexpr std::array<std::string_view, kMethods> kMethodNames = {
-    "constraint", "thesis", "thesis-literal", "voxel-springs", "samples", "triangles", "penalty"};
+    "constraint", "thesis",    "thesis-literal", "voxel-springs",
+    "samples",    "triangles", "penalty",        "shaft"};
 [[nodiscard]] constexpr std::string_view name(Method method) {
   return kMethodNames[static_cast<std::size_t>(method)];
 }
 [[nodiscard]] std::optional<Method> method_named(std::string_view name);
+// Methods whose burr is never in bone, so that they can begin only where it is free.
+[[nodiscard]] constexpr bool begins_free(Method method) {
+  return method == Method::constraint || method == Method::shaft;
+}
 
 struct ProxySettings {
   double radius = 1.5e-3;  // of the burr head                                              [m]
@@ -84,6 +92,10 @@ class TouchMethod {
   virtual void place(const math::Vec3& p) BURR_RT = 0;
   // One tick. hand: world [m].
   [[nodiscard]] virtual Touch step(const math::Vec3& hand) BURR_RT = 0;
+  // The same with the hand's direction, for methods in which more than a ball touches.
+  [[nodiscard]] virtual Touch step_pose(const math::Pose& hand) BURR_RT { return step(hand.p); }
+  // Of the last tick; nullptr: a ball alone touches, and Touch says all.
+  [[nodiscard]] virtual const ToolContact* parts() const BURR_RT { return nullptr; }
   // The method's centre of the burr. World [m].
   [[nodiscard]] virtual const math::Vec3& position() const BURR_RT = 0;
   virtual void set_friction(double mu_static, double mu_kinetic) BURR_RT = 0;

@@ -130,6 +130,7 @@ struct TickColumn {
   FieldText text;
   void* (*in)(tick::TickRow& row);  // its place in a row
   bool rarely = false;              // changes rarely: one value where all rows of a message agree
+  bool absent = false;              // left out where it is zero in all rows of a message
 };
 
 #define BURR_AT(member) [](tick::TickRow& row) -> void* { return &row.member; }
@@ -169,6 +170,27 @@ const TickColumn kTickColumns[] = {
      BURR_AT(contact.torque.x())},
     {{42, "torque_y_nm", Type::f64, "[N m]"}, BURR_AT(contact.torque.y())},
     {{43, "torque_z_nm", Type::f64, "[N m]"}, BURR_AT(contact.torque.z())},
+    {{52, "unsent_torque_x_nm", Type::f64,
+      "torque of the contact about the tip that the device cannot show, world LPS; absent: 0 [N "
+      "m]"},
+     BURR_AT(contact.unsent_torque.x()),
+     false,
+     true},
+    {{53, "unsent_torque_y_nm", Type::f64, "[N m]"},
+     BURR_AT(contact.unsent_torque.y()),
+     false,
+     true},
+    {{54, "unsent_torque_z_nm", Type::f64, "[N m]"},
+     BURR_AT(contact.unsent_torque.z()),
+     false,
+     true},
+    {{55, "turn_x_rad", Type::f64,
+      "how the tool is turned away from the hand, a rotation vector, world LPS; absent: 0 [rad]"},
+     BURR_AT(contact.turn.x()),
+     false,
+     true},
+    {{56, "turn_y_rad", Type::f64, "[rad]"}, BURR_AT(contact.turn.y()), false, true},
+    {{57, "turn_z_rad", Type::f64, "[rad]"}, BURR_AT(contact.turn.z()), false, true},
     {{24, "depth_m", Type::f64, "distance of hand and proxy [m]"}, BURR_AT(contact.depth)},
     {{25, "active", Type::i32, "number of constraints that the proxy rests on"},
      BURR_AT(contact.active)},
@@ -220,6 +242,10 @@ const TickColumn kTickColumns[] = {
     {{50, "mirror_half_voxel", Type::i32, "place of the mirror plane along that axis [voxel / 2]"},
      BURR_AT(tool.mirror_twice),
      true},
+    {{58, "tool_number", Type::i32,
+      "of the tool in the session's list `tools`; -1 or absent: the round burr"},
+     BURR_AT(tool.number),
+     true},
 };
 #undef BURR_AT
 
@@ -251,6 +277,7 @@ bool agree(std::span<const tick::TickRow> rows) {
 
 // A file may say anything.
 bool possible(const tool::ToolState& tool) {
+  constexpr int kMostTools = 64;
   constexpr double kWidest = 0.05;  // [m]
   const auto within = [](int value, int least, int most) {
     return value >= least && value <= most;
@@ -258,7 +285,7 @@ bool possible(const tool::ToolState& tool) {
   return tool.radius >= 0 && tool.radius <= kWidest && std::isfinite(tool.full_speed) &&
          within(static_cast<int>(tool.kind), 0, 1) &&
          within(static_cast<int>(tool.mode), 0, tool::kModes - 1) &&
-         within(tool.mirror_axis, -1, 2);
+         within(tool.mirror_axis, -1, 2) && within(tool.number, -1, kMostTools - 1);
 }
 
 // ---- FileDescriptorSet (google/protobuf/descriptor.proto), written by hand
@@ -395,6 +422,19 @@ constexpr const char* kSessionSchema = R"({
    "description": "of the tool, behind the head",
    "properties": {"radius_m": {"type": "number"}, "length_m": {"type": "number"}}
   },
+  "tools": {
+   "type": "array",
+   "description": "tools other than the round burr that the session could take; lengths in m",
+   "items": {"type": "object", "properties": {
+    "name": {"type": "string"},
+    "parts": {"type": "array", "items": {"type": "object", "properties": {
+     "shape": {"enum": ["ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell"]},
+     "sizes_m": {"type": "array", "items": {"type": "number"}, "description": "a, b, c and the rounding"},
+     "at_m": {"type": "array", "items": {"type": "number"}},
+     "turn_xyzw": {"type": "array", "items": {"type": "number"}, "description": "tool_from_part"},
+     "role": {"enum": ["cuts", "rubs", "seen"]}}}},
+    "cutter": {"type": "object", "description": "how it moves; units are in the names"}}}
+  },
   "case": {
    "type": "object",
    "description": "the case of the session",
@@ -416,8 +456,8 @@ constexpr const char* kCommandSchema = R"({
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
-  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind"]},
-  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; burr_kind 0 cutting, 1 diamond; \"nan\", \"inf\", \"-inf\" as strings"}
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind", "tool"]},
+  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty, 7 shaft; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; burr_kind 0 cutting, 1 diamond; tool number in tools, -1 the round burr; \"nan\", \"inf\", \"-inf\" as strings"}
  }
 })";
 
@@ -475,6 +515,8 @@ const char* command_name(tick::CommandKind kind) {
       return "mirror_off";
     case tick::CommandKind::burr_kind:
       return "burr_kind";
+    case tick::CommandKind::tool:
+      return "tool";
   }
   return "";
 }
@@ -519,7 +561,11 @@ void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out) {
       else
         packed.raw(column.in(row), width(column.text.type));
     }
-    put_block(out, column.text.number, packed.span());
+    const ByteSpan bytes = packed.span();
+    if (column.absent &&
+        std::all_of(bytes.begin(), bytes.end(), [](auto byte) { return byte == 0; }))
+      continue;
+    put_block(out, column.text.number, bytes);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "burr/record/grid_json.h"
 #include "burr/record/private_text.h"
+#include "burr/record/tool_json.h"
 #include "burr/volume/bone.h"
 
 namespace burr::record {
@@ -348,6 +349,7 @@ std::string to_json(const SessionInfo& info) {
   if (info.identity) session["identity"] = json_from_identity(*info.identity);
   if (info.shaft)
     session["shaft"] = {{"radius_m", info.shaft->radius}, {"length_m", info.shaft->length}};
+  if (!info.tools.empty()) session["tools"] = json::parse(tools_to_json(info.tools));
   // names of tissues come from the user's file and may hold anything; broken UTF-8 is replaced
   return session.dump(1, ' ', false, json::error_handler_t::replace);
 }
@@ -384,6 +386,8 @@ Result<SessionInfo> session_from_json(std::string_view text, const std::string& 
   }
   if (const json& shaft = part(object, "shaft"); !shaft.is_null())
     if (!get_shaft(shaft, info.shaft.emplace())) return missing("shaft");
+  if (const json& tools = part(object, "tools"); !tools.is_null())
+    if (!tools_from_json(tools.dump(), info.tools)) return missing("tools");
   const json& volume = part(object, "volume");
   if (!volume.is_object()) return missing("volume");
   if (!get_hash(volume, "content_hash", info.volume.content_hash))

@@ -17,6 +17,7 @@
 #include "burr/record/identity.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/recipe.h"
+#include "burr/tool/shaped_tool.h"
 #include "burr/volume/grid.h"
 #include "burr/volume/tissue.h"
 
@@ -63,10 +64,11 @@ struct SessionInfo {
   Numbers numbers;  // settings: "burr_radius_m", "spindle_rad_s", "stiffness_n_per_m" ...
   Words words;      // "device": "simulated hand", "motion": "pocket" ...
   VolumeInfo volume;
-  std::optional<CaseInfo> work_case;  // none: no case, or recorded before cases were
-  std::optional<Identity> identity;   // none: recorded before 2026-11-26
-  std::optional<Shaft> shaft;         // likewise
-  bool embedded = false;              // the file holds the bone; filled in by the Recorder
+  std::optional<CaseInfo> work_case;    // none: no case, or recorded before cases were
+  std::optional<Identity> identity;     // none: recorded before 2026-11-26
+  std::optional<Shaft> shaft;           // likewise
+  std::vector<tool::ShapedTool> tools;  // other than the round burr, that the session could take
+  bool embedded = false;                // the file holds the bone; filled in by the Recorder
 };
 
 // The bone as it is now, before the first tick. How it was made (numbers, words) is added by the

@@ -30,6 +30,7 @@ enum Flag : std::uint32_t {
   kFlagPutOff = 1U << 15,     // too much to cut in one tick: the bricks are cut in turn
   kFlagGuarded = 1U << 16,    // the energy guard damped the hand
   kFlagStalled = 1U << 17,    // the spindle stands still: the bone holds it
+  kFlagShaft = 1U << 18,      // a part of the tool that never cuts rests on bone
 };
 
 }  // namespace burr::rt

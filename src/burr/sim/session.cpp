@@ -18,6 +18,28 @@ constexpr std::int64_t kGuardNs = 500'000;   // between two checks by the guard
 constexpr std::uint64_t kHeatWait = 1000;
 constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two calls that reserve memory
 
+// A part thinner than a voxel could slip between the points of bone that it touches.
+Status check_tools(const tick::ServoSettings& servo, double voxel) {
+  if (servo.tool < -1 || servo.tool >= static_cast<int>(servo.tools.size()))
+    return error(Trouble::internal, "the session has no tool of this number");
+  if (servo.tool < 0) return fine();
+  const tool::ShapedTool& tool = servo.tools[static_cast<std::size_t>(servo.tool)];
+  const double thinnest = tool::thinnest(tool.tool);
+  if (thinnest < voxel - 1e-9)
+    return error(
+        Trouble::usage,
+        fmt::format("--tool {}: its thinnest part is {:.2f} mm, thinner than a voxel of "
+                    "{:.3f} mm; use --voxel-mm {:.3f} or finer (with --roi around the "
+                    "work, if memory is short)",
+                    tool.name, 1e3 * thinnest, 1e3 * voxel, std::floor(1e6 * thinnest) / 1e3));
+  if (servo.removal.law != edit::RemovalLaw::energy)
+    return error(
+        Trouble::usage,
+        fmt::format("--removal {} is for round burrs; leave it out with --tool {}",
+                    edit::kLawNames[static_cast<std::size_t>(servo.removal.law)], tool.name));
+  return fine();
+}
+
 }  // namespace
 
 Session::Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Device> device,
@@ -49,6 +71,7 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
                     "too coarse for it; use --voxel-mm {:.3f} or finer (with --roi around the "
                     "work, if memory is short), or --burr-mm {:.2f} or larger",
                     2e3 * r, 1e3 * h, std::floor(1e6 * r / 2) / 1e3, std::ceil(4e5 * h) / 100));
+  if (Status good = check_tools(servo, h); !good.ok()) return good.error();
   if (!(servo.force.stiffness > 0 && std::isfinite(servo.force.stiffness)))
     return error(Trouble::usage,
                  fmt::format("a stiffness of {} N/m is not possible; use, for example, 1000",

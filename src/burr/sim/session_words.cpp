@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "burr/base/printable.h"
+#include "burr/record/tool_json.h"
 
 namespace burr::sim {
 namespace {
@@ -68,6 +69,7 @@ const Entry kEntries[] = {
     BURR_ENTRY("carve_patience_s", settings.servo.carve.debt_timeout, 0, 1e6),
     BURR_ENTRY("deposit_share", settings.servo.carve.deposit_share, 0, 1),
     BURR_ENTRY("deposit_gap_voxel", settings.servo.carve.deposit_gap, 0, 64),
+    BURR_ENTRY("tool", settings.servo.tool, -1, record::kMostTools - 1, true),
     BURR_ENTRY("tool_mode", settings.servo.mode, 0, tick::kToolModes - 1),
     BURR_ENTRY("irrigated", settings.servo.irrigated, 0, 1, true),
     BURR_ENTRY("friction_scale", settings.servo.friction_scale, 0, 1e3),
@@ -111,6 +113,7 @@ void describe(const SessionSettings& settings, const device::DeviceSpec& device,
   for (const Entry& entry : kEntries) info.numbers[entry.name] = entry.get(all);
   info.rate_hz = settings.servo.rate_hz;
   info.words["device"] = device.name;
+  info.tools = settings.servo.tools;
 }
 
 Result<Recorded> settings_of(const record::SessionInfo& info, const std::string& where) {
@@ -130,6 +133,12 @@ Result<Recorded> settings_of(const record::SessionInfo& info, const std::string&
                       where, entry.name, found->second, entry.least, entry.most));
     entry.set(all, found->second);
   }
+  all.settings.servo.tools = info.tools;
+  if (all.settings.servo.tool >= static_cast<int>(info.tools.size()))
+    return error(
+        fmt::format("{}: the session's tool has number {}, but the recording holds {} tools; "
+                    "the recording is damaged",
+                    where, all.settings.servo.tool, info.tools.size()));
   const auto name = info.words.find("device");
   if (name != info.words.end()) all.device.name = name->second;
   return all;

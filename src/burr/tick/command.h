@@ -29,6 +29,7 @@ enum class CommandKind : std::uint8_t {
   mirror_k,       // likewise across k
   mirror_off,
   burr_kind,  // value: 0 cutting, 1 diamond
+  tool,       // value: number in the session's list of tools; -1: the round burr
 };
 struct Command {
   CommandKind kind = CommandKind::spindle_speed;

@@ -27,8 +27,9 @@ Cutting::Cutting(const volume::Bone& bone, edit::UndoStore& undo, edit::BoneWrit
       brush_(writer),
       chips_(bone),
       vibration_({.device_gain = controls.settings.vibration_gain}) {
-  spindle_.full_speed = settings_.spindle_rad_s;
+  spindle_.full_speed = burr_speed_ = settings_.spindle_rad_s;
   spindle_.motor = settings_.motor;
+  if (shaped() != nullptr) take_tool();
 }
 
 // ---- before touch
@@ -36,8 +37,11 @@ Cutting::Cutting(const volume::Bone& bone, edit::UndoStore& undo, edit::BoneWrit
 // What lies half a voxel under the point of contact.
 const volume::Tissue& Cutting::touched_tissue() const BURR_RT {
   const haptics::Touch& touch = hand_.touch();
-  const Vec3 foot = touch.proxy - (settings_.burr.radius + 0.5 * bone_.grid().voxel) * touch.normal;
-  const math::Ijk at = (bone_.grid().grid_from_world(foot).array() + 0.5).floor().cast<int>();
+  return tissue_at(touch.proxy - (settings_.burr.radius + 0.5 * bone_.grid().voxel) * cut_normal_);
+}
+
+const volume::Tissue& Cutting::tissue_at(const Vec3& world) const BURR_RT {
+  const math::Ijk at = (bone_.grid().grid_from_world(world).array() + 0.5).floor().cast<int>();
   return bone_.tissues()[bone_.tissue(at.x(), at.y(), at.z())];
 }
 
@@ -52,7 +56,7 @@ double Cutting::friction() const BURR_RT {
 
 // Can a force change from tick to tick as fast as one tooth follows the other?
 bool Cutting::tooth_is_carried() const BURR_RT {
-  return settings_.burr.teeth * std::abs(spindle_.speed()) * dt_ < kCarried * 2 * M_PI;
+  return teeth() * std::abs(spindle_.speed()) * dt_ < kCarried * 2 * M_PI;
 }
 
 // Pressing and being dragged aside feed each other in a hole that fits the burr, and would whirl a
@@ -65,7 +69,7 @@ Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
       last_push_ > 0 ? settings_.drag_gain * math::norm(now_.drag) / last_push_ : 0;
   drag_ratio_ += share * (ratio - drag_ratio_);
   // once per tooth, where the ticks are quick enough to carry it
-  const double tooth = settings_.burr.teeth * spindle_.speed() * dt_;  // [rad] a tick
+  const double tooth = teeth() * spindle_.speed() * dt_;  // [rad] a tick
   tooth_phase_ = std::remainder(tooth_phase_ + tooth, 2 * M_PI);
   if (!touch.touching) return Vec3::Zero();
 
@@ -92,29 +96,43 @@ Vec3 Cutting::vibration() BURR_RT {
 // tool/spindle.h; felt where the device can turn the hand: as the tip is where the device pushes,
 // the force itself has no lever.
 Vec3 Cutting::torque() const BURR_RT {
+  if (shaped() != nullptr && shaped()->cutter.drive != tool::Drive::turning) return Vec3::Zero();
   return settings_.torque_gain * spindle_.reaction() * hand_.axis();
 }
 
 // ---- the bone
 
-edit::Cutting Cutting::by_law(double push, double speed) BURR_RT {
+// The share of the force with which cutting parts press; of a ball alone it is all.
+Cutting::Press Cutting::press(const Vec3& touched) const BURR_RT {
+  const haptics::Touch& touch = hand_.touch();
+  Press press{touch.normal, std::max(0.0, math::dot(touched, touch.normal))};
+  const haptics::ToolContact* parts = hand_.parts();
+  if (parts == nullptr || !parts->by_part) return press;
+  const double carried = math::norm(parts->head);
+  press.push = touch.depth > 0 ? press.push * (carried / touch.depth) : 0;
+  if (carried > 0) press.normal = parts->head / carried;
+  return press;
+}
+
+edit::Cutting Cutting::by_law(const Press& press, double speed) BURR_RT {
   const haptics::Touch& touch = hand_.touch();
   const edit::Spin spin = {hand_.axis(), speed};
   const tool::Burr& burr = settings_.burr;
   if (settings_.removal.law == edit::RemovalLaw::chips && burr.kind == tool::BurrKind::cutting)
-    return chips_.step(burr, touch.proxy, touch.normal, push, spin, dt_, settings_.removal,
+    return chips_.step(burr, touch.proxy, press.normal, press.push, spin, dt_, settings_.removal,
                        tooth_is_carried());
   return edit::energy_law(
-      push, spin, burr.radius,
-      tool::cutting_efficiency(burr.kind, speed) * touched_tissue().cutting_friction, touch.normal,
+      press.push, spin, burr.radius,
+      tool::cutting_efficiency(burr.kind, speed) * touched_tissue().cutting_friction, press.normal,
       dt_, settings_.removal);
 }
 
 // Is the bone worked on in this tick? If not, the debt and the open stroke run out.
 bool Cutting::works(double push) BURR_RT {
   const double pedal = hand_.state().pedal;
-  const bool works =
-      settings_.mode == ToolMode::cut ? spindle_.speed() != 0 && push > 0 : pedal > 0 && push > 0;
+  const bool works = shaped() != nullptr               ? drive_moves(push)
+                     : settings_.mode == ToolMode::cut ? spindle_.speed() != 0 && push > 0
+                                                       : pedal > 0 && push > 0;
   if (works) {
     untouched_ = 0;
     return true;
@@ -130,20 +148,26 @@ void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64
                   std::uint32_t& flags) BURR_RT {
   const haptics::Touch& touch = hand_.touch();
   const bool pushes = may && touch.touching && !touch.slipping && settings_.mode != ToolMode::touch;
-  const double push = pushes ? std::max(0.0, math::dot(touched, touch.normal)) : 0;
+  const Press now = press(touched);
+  const double push = pushes ? now.push : 0;
+  cut_normal_ = now.normal;
   last_push_ = push;
   now_ = {};
+  if (shaped() != nullptr) {
+    cut_shaped(push, flags, path_mark);
+    return;
+  }
   // what holds a standing burr is what would brake it if it crept
   if (settings_.mode == ToolMode::cut && push > 0 && spindle_.speed() == 0 &&
       hand_.state().pedal > 0 && settings_.removal.law != edit::RemovalLaw::thesis)
-    now_.torque = by_law(push, std::copysign(1.0, spindle_.full_speed)).torque;
+    now_.torque = by_law({now.normal, push}, std::copysign(1.0, spindle_.full_speed)).torque;
   if (!works(push)) return;
   if (!undo_.stroke_open()) undo_.begin_stroke(path_mark, carver_.removed_units());
 
   const volume::Grid& grid = bone_.grid();
   edit::Cut cut;
   cut.centre = grid.grid_from_world(touch.proxy);
-  cut.push = grid.frame.q.conjugate() * (-touch.normal);
+  cut.push = grid.frame.q.conjugate() * (-now.normal);
   cut.radius = settings_.burr.radius / grid.voxel;
   cut.dt = dt_;
   cut.slices = slices_of(controls_.shed);
@@ -157,7 +181,7 @@ void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64
     else
       carver_.idle(dt_);
   } else if (settings_.mode == ToolMode::cut) {
-    now_ = by_law(push, spindle_.speed());
+    now_ = by_law({now.normal, push}, spindle_.speed());
     cut.energy = now_.energy;
     carver_.carve(cut, flags);
   } else if (settings_.mode != ToolMode::add) {
@@ -190,15 +214,16 @@ void Cutting::brush(const edit::Cut& cut, std::uint32_t& flags) BURR_RT {
 
 Cutting::Warming Cutting::warming() const BURR_RT {
   const haptics::Touch& touch = hand_.touch();
+  if (shaped() != nullptr) return {now_.power, warm_place_, thermal::Edge::flute};
   const bool rubs = settings_.mode == ToolMode::cut && now_.power <= 0 && last_push_ > 0;
   Warming warming;
   warming.power = now_.power;
   if (rubs)
     warming.power = settings_.friction_turning * last_push_ * std::abs(spindle_.speed()) *
                     settings_.burr.radius *
-                    std::max(math::norm(touch.normal.cross(hand_.axis())), settings_.removal.pole);
+                    std::max(math::norm(cut_normal_.cross(hand_.axis())), settings_.removal.pole);
   warming.place = touch.proxy;
-  if (warming.power > 0) warming.place = touch.proxy - settings_.burr.radius * touch.normal;
+  if (warming.power > 0) warming.place = touch.proxy - settings_.burr.radius * cut_normal_;
   using thermal::Edge;
   warming.edge = rubs                                             ? Edge::rubbing
                  : settings_.burr.kind == tool::BurrKind::diamond ? Edge::diamond

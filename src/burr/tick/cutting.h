@@ -13,6 +13,7 @@
 #include "burr/edit/brush.h"
 #include "burr/edit/carve.h"
 #include "burr/edit/laws/chips.h"
+#include "burr/edit/laws/elements.h"
 #include "burr/edit/laws/removal.h"
 #include "burr/edit/undo.h"
 #include "burr/haptics/vibration.h"
@@ -20,6 +21,7 @@
 #include "burr/thermal/rows.h"
 #include "burr/tick/hand.h"
 #include "burr/tick/settings.h"
+#include "burr/tool/shaped_tool.h"
 #include "burr/tool/spindle.h"
 #include "burr/volume/bone.h"
 
@@ -48,6 +50,9 @@ class Cutting {
   void cut(std::uint64_t tick, const math::Vec3& touched, bool may, std::uint64_t path_mark,
            std::uint32_t& flags) BURR_RT;
 
+  // Another tool is in the hand, as the settings say.
+  void take_tool() BURR_RT;
+
   // ---- as of the last cut
   [[nodiscard]] const edit::Cutting& now() const BURR_RT { return now_; }
   [[nodiscard]] int bricks_last() const BURR_RT { return carver_.bricks_last(); }
@@ -64,7 +69,22 @@ class Cutting {
  private:
   [[nodiscard]] const volume::Tissue& touched_tissue() const BURR_RT;
   [[nodiscard]] bool tooth_is_carried() const BURR_RT;
-  [[nodiscard]] edit::Cutting by_law(double push, double speed) BURR_RT;
+  // How hard the cutting parts press, and along which normal.
+  struct Press {
+    math::Vec3 normal = math::Vec3::Zero();  // unit, out of the bone
+    double push = 0;                         // [N]
+  };
+  [[nodiscard]] Press press(const math::Vec3& touched) const BURR_RT;
+  [[nodiscard]] edit::Cutting by_law(const Press& press, double speed) BURR_RT;
+  // ---- a tool of any shape (shaped_cutting.cpp)
+  [[nodiscard]] const tool::ShapedTool* shaped() const BURR_RT;
+  [[nodiscard]] bool drive_moves(double push) const BURR_RT;
+  void cut_shaped(double push, std::uint32_t& flags, std::uint64_t path_mark) BURR_RT;
+  void swing_mallet() BURR_RT;
+  [[nodiscard]] int teeth() const BURR_RT;
+  [[nodiscard]] edit::ElementCutting by_elements(double per_stretch) BURR_RT;
+  void place_body(edit::Cut& cut) BURR_RT;
+  [[nodiscard]] const volume::Tissue& tissue_at(const math::Vec3& world) const BURR_RT;
   [[nodiscard]] bool works(double push) BURR_RT;
   void brush(const edit::Cut& cut, std::uint32_t& flags) BURR_RT;
 
@@ -79,12 +99,19 @@ class Cutting {
   edit::Chips chips_;
   haptics::Vibration vibration_;
   tool::Spindle spindle_;
-  edit::Cutting now_;                     // in the last tick
-  double last_push_ = 0;                  // of touch alone, along the normal [N]
-  math::Vec3 drag_ = math::Vec3::Zero();  // of the bone on the burr, as the hand gets it [N]
-  double drag_ratio_ = 0;                 // over the push, likewise
-  double tooth_phase_ = 0;                // [rad]
-  double untouched_ = 0;                  // since the last contact of the open stroke [s]
+  edit::Cutting now_;                           // in the last tick
+  math::Vec3 cut_normal_ = math::Vec3::Zero();  // of the contact that cut
+  edit::ToolBody body_;                         // cutting parts of the tool in the hand
+  double body_reach_ = 0;    // of the tool's touching parts               [voxel]
+  double blow_left_ = 0;     // energy of the mallet's last blow             [J]
+  double since_blow_ = 1e9;  // [s]
+  double burr_speed_ = 0;    // of the burr at full pedal, while a tool is in the hand
+  math::Vec3 warm_place_ = math::Vec3::Zero();  // of a tool of any shape               [m]
+  double last_push_ = 0;                        // of touch alone, along the normal [N]
+  math::Vec3 drag_ = math::Vec3::Zero();        // of the bone on the burr, as the hand gets it [N]
+  double drag_ratio_ = 0;                       // over the push, likewise
+  double tooth_phase_ = 0;                      // [rad]
+  double untouched_ = 0;                        // since the last contact of the open stroke [s]
   bool deposited_ = false;
 };
 

@@ -38,6 +38,7 @@ constexpr std::pair<std::uint32_t, const char*> kWords[] = {
      "--stiffness"},
     {rt::kFlagStalled,
      "the bone stopped the spindle; press less, or raise the motor's torque (--torque-mnm)"},
+    {rt::kFlagShaft, "the shaft, or another part of the tool that does not cut, was on bone"},
     {rt::kFlagNotCut, "the burr was blocked and part of the requested volume was not cut"},
 };
 

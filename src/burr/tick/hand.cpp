@@ -39,28 +39,32 @@ bool Hand::read(bool lost, std::uint32_t& flags) BURR_RT {
 
 bool Hand::engage() BURR_RT {
   if (engaged_) return true;
-  const Vec3& hand = state_.world_from_tool.p;
+  const math::Pose& hand = state_.world_from_tool;
   touch_ = {};
-  touch_.proxy = hand;
-  if (!constraint_.is_free(hand)) return false;
+  touch_.proxy = hand.p;
+  parts_ = nullptr;
+  if (!free_at(hand)) return false;
   begin_at(hand);
   return true;
 }
 
 void Hand::set_down() BURR_RT {
-  const Vec3& hand = state_.world_from_tool.p;
-  if (constraint_.is_free(hand)) begin_at(hand);
+  const math::Pose& hand = state_.world_from_tool;
+  if (free_at(hand)) begin_at(hand);
 }
 
 void Hand::feel() BURR_RT {
-  touch_ = method_->step(state_.world_from_tool.p);
+  touch_ = method_->step_pose(state_.world_from_tool);
+  parts_ = method_->parts();
   if (!hovers()) return;
   touch_ = {};  // no contact, no force
+  parts_ = nullptr;
   touch_.proxy = method_->position();
 }
 
 void Hand::feel_held_tool() BURR_RT {
   touch_ = {};
+  parts_ = nullptr;
   touch_.proxy = method_->position();
   const Vec3 stretch = touch_.proxy - state_.world_from_tool.p;
   touch_.depth = math::norm(stretch);
@@ -72,6 +76,7 @@ void Hand::feel_held_tool() BURR_RT {
 
 void Hand::skip_touch() BURR_RT {
   touch_ = {};
+  parts_ = nullptr;
   touch_.proxy = method_->position();
   velocity_ = Vec3::Zero();
 }
@@ -122,6 +127,10 @@ void Hand::report(const Sent& sent, haptics::Contact& contact) const BURR_RT {
   contact.touching = touch_.touching && !touch_.slipping;
   if (touch_.lagging) contact.flags |= rt::kFlagLagging;
   if (touch_.overflow) contact.flags |= rt::kFlagCandidates;
+  if (parts_ == nullptr) return;
+  if (parts_->rests) contact.flags |= rt::kFlagShaft;
+  contact.turn = parts_->turn;
+  contact.unsent_torque = force_.stiffness * parts_->torque;
 }
 
 void Hand::set_user_force(double newton) BURR_RT {

@@ -23,6 +23,7 @@
 #include "burr/haptics/proxy.h"
 #include "burr/haptics/safety/energy_guard.h"
 #include "burr/haptics/safety/limit.h"
+#include "burr/haptics/six/tool_touch.h"
 #include "burr/haptics/touch_method.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
@@ -46,7 +47,11 @@ class Hand {
        const HandSettings& settings);
 
   // Touches with this method from now on.
-  void use(haptics::TouchMethod& method) BURR_RT { method_ = &method; }
+  // tool: the same method, where it is that of a tool of any shape.
+  void use(haptics::TouchMethod& method, haptics::ToolTouch* tool = nullptr) BURR_RT {
+    method_ = &method;
+    tool_ = tool;
+  }
 
   // ---- the steps of a tick
   // False: the reading cannot be used, the force fades. lost: as Servo::tick().
@@ -98,8 +103,11 @@ class Hand {
   void disengage() BURR_RT { engaged_ = false; }
   // Puts the tool there, whether it is free or not.
   void place(const math::Vec3& p) BURR_RT { method_->place(p); }
-  void begin_at(const math::Vec3& p) BURR_RT {
-    place(p);
+  void begin_at(const math::Pose& world_from_tool) BURR_RT {
+    if (tool_ != nullptr)
+      tool_->place(world_from_tool);
+    else
+      place(world_from_tool.p);
     engaged_ = true;
   }
   void set_user_force(double newton) BURR_RT;
@@ -111,7 +119,17 @@ class Hand {
   [[nodiscard]] math::Vec3 axis() const BURR_RT {  // of the tool, unit, towards the hand
     return state_.world_from_tool.q * math::Vec3::UnitZ();
   }
-  [[nodiscard]] bool tool_is_free() BURR_RT { return constraint_.is_free(method_->position()); }
+  // How it is turned: as the hand, unless contact turned it away.
+  [[nodiscard]] math::Quat tool_turn() const BURR_RT {
+    return tool_ != nullptr ? tool_->pose().q : state_.world_from_tool.q;
+  }
+  // What the parts of the tool carry; nullptr: a ball alone touches.
+  [[nodiscard]] const haptics::ToolContact* parts() const BURR_RT { return parts_; }
+  [[nodiscard]] const math::Vec3& velocity() const BURR_RT { return velocity_; }  // filtered [m/s]
+  [[nodiscard]] bool tool_is_free() BURR_RT {
+    return tool_ != nullptr ? tool_->is_free(tool_->pose())
+                            : constraint_.is_free(method_->position());
+  }
   [[nodiscard]] bool engaged() const BURR_RT { return engaged_; }
   // Neither feels nor cuts, and will not until it was in free air once.
   [[nodiscard]] bool released() const BURR_RT { return !engaged_ || !limit_.engaged(); }
@@ -119,10 +137,17 @@ class Hand {
   [[nodiscard]] FaultKeeper& faults() BURR_RT { return faults_; }
 
  private:
+  [[nodiscard]] bool free_at(const math::Pose& world_from_tool) BURR_RT {
+    return tool_ != nullptr ? tool_->is_free(world_from_tool)
+                            : constraint_.is_free(world_from_tool.p);
+  }
+
   device::Device& device_;
   haptics::Proxy& constraint_;
   const haptics::ForceSettings& force_;
   haptics::TouchMethod* method_;
+  haptics::ToolTouch* tool_ = nullptr;           // method_, or nullptr
+  const haptics::ToolContact* parts_ = nullptr;  // of this tick
   double dt_;
   double blend_;  // of the velocity filter, in one tick
   bool guarded_;

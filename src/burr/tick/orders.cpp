@@ -64,6 +64,9 @@ void Orders::obey(const Command& command, std::uint32_t& flags) BURR_RT {
     case CommandKind::removal_law:
       set_law(value);
       break;
+    case CommandKind::tool:
+      take_tool(value, flags);
+      break;
     case CommandKind::irrigation:
       parts_.controls.irrigated = value > 0;
       break;
@@ -84,7 +87,7 @@ void Orders::obey(const Command& command, std::uint32_t& flags) BURR_RT {
 // Refused where the larger head has no room.
 void Orders::set_radius(double radius) BURR_RT {
   if (radius < 2 * grid_.voxel || radius > 0.5 * tool::kLargestDiameter + 1e-12) return;
-  if (!parts_.touch_by.set_radius(radius)) return;
+  if (settings_.tool >= 0 || !parts_.touch_by.set_radius(radius)) return;
   settings_.burr.radius = radius;
   parts_.outbox.note_radius(radius);
 }
@@ -102,7 +105,7 @@ void Orders::set_law(double law) BURR_RT {
 void Orders::set_shed(double shed) BURR_RT {
   if (shed < 0 || shed >= kShedSteps) return;
   parts_.controls.shed = shed_requested_ = static_cast<Shed>(static_cast<int>(shed));
-  parts_.touch_by.constraint().set_max_moves(
+  parts_.touch_by.set_max_moves(
       parts_.controls.shed == Shed::touch ? kFewMoves : haptics::ProxySettings{}.max_moves);
 }
 
@@ -112,7 +115,17 @@ void Orders::set_method(double method, std::uint32_t& flags) BURR_RT {
   if (method < 0 || method >= haptics::kMethods) return;
   settings_.touch = static_cast<haptics::Method>(static_cast<int>(method));
   if (!parts_.touch_by.choose(settings_.touch)) parts_.hand.release(rt::kFlagWaiting, flags);
-  parts_.hand.use(parts_.touch_by.now());
+  parts_.hand.use(parts_.touch_by.now(), parts_.touch_by.tool());
+}
+
+// A tool of any shape begins in free air: where the one before stood, it may stand in bone.
+void Orders::take_tool(double number, std::uint32_t& flags) BURR_RT {
+  const int is = static_cast<int>(std::clamp(number, -2.0, 1e6));
+  if (is < -1 || is >= static_cast<int>(settings_.tools.size()) || is == settings_.tool) return;
+  settings_.tool = is;
+  if (!parts_.touch_by.take(is)) parts_.hand.release(rt::kFlagWaiting, flags);
+  parts_.hand.use(parts_.touch_by.now(), parts_.touch_by.tool());
+  parts_.cutting.take_tool();
 }
 
 void Orders::begin_restore(CommandKind kind) BURR_RT {

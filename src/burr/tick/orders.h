@@ -50,6 +50,7 @@ class Orders {
   void set_law(double law) BURR_RT;
   void set_shed(double shed) BURR_RT;
   void set_method(double method, std::uint32_t& flags) BURR_RT;
+  void take_tool(double number, std::uint32_t& flags) BURR_RT;
   void begin_restore(CommandKind kind) BURR_RT;
 
   const volume::Grid& grid_;

@@ -81,6 +81,12 @@ void Restore::step(std::uint32_t& flags) BURR_RT {
 }
 
 void Restore::lift(std::uint32_t& flags) BURR_RT {
+  if (settings_.tool >= 0) {
+    // how it was turned on its way is not known: the hand is released, and engages again in free air
+    hand_.release(rt::kFlagRestoring, flags);
+    state_ = State::restoring;
+    return;
+  }
   double left = settings_.lift_speed * dt_;
   bool arrived = false;
   Vec3 at = hand_.tool();
@@ -129,7 +135,7 @@ void Restore::put_back() BURR_RT {
 void Restore::settle() BURR_RT {
   if (surface_.stale() != 0) return;
   state_ = State::none;
-  if (settings_.touch == haptics::Method::constraint && !hand_.tool_is_free())
+  if ((settings_.tool >= 0 || haptics::begins_free(settings_.touch)) && !hand_.tool_is_free())
     hand_.disengage();  // never go on inside bone
 }
 

@@ -35,13 +35,13 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
                  .wedge = settings.wedge,
                  .slip = settings.slip_m_s / settings.rate_hz,
                  .push_out_speed = kRecovery / settings.rate_hz},
-                settings.touch),
+                settings.touch, &controls_.settings.tools, settings.tool),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),
       cutting_(bone, undo_, writer_, controls_, hand_),
       restore_(bone, surface, undo_, writer_, controls_.settings, hand_),
       outbox_(bone, changed_, controls_),
       orders_(bone.grid(), {controls_, hand_, touch_by_, cutting_, restore_, outbox_}) {
-  hand_.use(touch_by_.now());
+  hand_.use(touch_by_.now(), touch_by_.tool());
 }
 
 const TickRow& Servo::tick(bool lost) BURR_RT {
@@ -110,6 +110,7 @@ void Servo::note_tool() BURR_RT {
   row_.tool.mirror_axis = controls_.mirror.axis;
   row_.tool.mirror_twice = controls_.mirror.twice;
   row_.tool.irrigated = controls_.irrigated;
+  row_.tool.number = now.tool;
 }
 
 void Servo::finish_row(const Hand::Sent& sent) BURR_RT {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "burr/edit/carve.h"
 #include "burr/edit/laws/removal.h"
@@ -13,6 +14,7 @@
 #include "burr/haptics/touch_method.h"
 #include "burr/tick/shed.h"
 #include "burr/tool/burr_tool.h"
+#include "burr/tool/shaped_tool.h"
 #include "burr/tool/spindle.h"
 #include "burr/tool/state.h"
 #include "burr/volume/bone.h"
@@ -26,7 +28,9 @@ struct ServoSettings {
   double rate_hz = 1000;
   haptics::Method touch = haptics::Method::constraint;
   tool::Burr burr;
-  double spindle_rad_s = 4188.79;  // at full pedal: 40 000 rpm; below 0: backwards
+  std::vector<tool::ShapedTool> tools;  // that the session may take
+  int tool = -1;                        // number of the one in the hand; -1: the burr
+  double spindle_rad_s = 4188.79;       // at full pedal: 40 000 rpm; below 0: backwards
   tool::Motor motor;
   haptics::ForceSettings force;
   bool guarded = false;        // by the energy guard; not by default: docs/status.md

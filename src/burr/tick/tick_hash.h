@@ -1,8 +1,9 @@
 // tick/tick_hash.h - one number for the inputs and results of a tick; a replay compares it.
 //
 // Chained: `before` is the hash of the previous tick, so the last hash covers the whole session.
-// The times (took_us, late_us) are left out, because they differ from run to run. A torque of zero
-// is left out too, so that recordings from before torque existed keep their hashes. For the same reason the undone volume
+// The times (took_us, late_us) are left out, because they differ from run to run. A torque of zero,
+// sent or not, and a turn of zero are left out too, so that recordings from before these existed keep
+// their hashes. For the same reason the undone volume
 // is left out: it follows from the removed volume and the commands. No allocation.
 #pragma once
 
@@ -36,6 +37,8 @@ namespace burr::tick {
   add3(row.contact.normal);
   add3(row.contact.force);
   if (row.contact.torque != math::Vec3::Zero()) add3(row.contact.torque);
+  if (row.contact.unsent_torque != math::Vec3::Zero()) add3(row.contact.unsent_torque);
+  if (row.contact.turn != math::Vec3::Zero()) add3(row.contact.turn);
   add(row.contact.depth);
   bits(static_cast<std::uint64_t>(row.contact.active));
   bits(static_cast<std::uint64_t>(row.contact.candidates));

@@ -1,5 +1,6 @@
 #include "burr/tick/touch_methods.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace burr::tick {
@@ -14,17 +15,25 @@ constexpr double kShallow = 0.5;  // in bone, from which ours comes out by itsel
 }  // namespace
 
 TouchMethods::TouchMethods(const volume::IsoVertices& surface,
-                           const haptics::ProxySettings& settings, Method first)
+                           const haptics::ProxySettings& settings, Method first,
+                           const std::vector<tool::ShapedTool>* tools, int number)
     : surface_(surface),
       bone_(surface.bone()),
       radius_(settings.radius),
       method_(first),
+      tools_(tools),
+      number_(number),
       mesher_(surface.bone()) {
   for (int n = 0; n < haptics::kMethods; ++n)
     all_[static_cast<std::size_t>(n)] =
         haptics::make_method(static_cast<Method>(n), surface, settings, Vec3::Zero());
   constraint_ = static_cast<haptics::Proxy*>(all_[index(Method::constraint)].get());
   triangles_ = static_cast<haptics::TriangleProxy*>(all_[index(Method::triangles)].get());
+  shaft_ = static_cast<haptics::ShaftTouch*>(all_[index(Method::shaft)].get());
+  if (tools != nullptr && !tools->empty())
+    tool_ = std::make_unique<haptics::ToolTouch>(
+        surface, (*tools)[static_cast<std::size_t>(std::max(0, number))].tool, settings,
+        haptics::ShaftTouch::kLever, math::Pose{nowhere(), math::Quat::Identity()});
   // what a patch can have at most: a vertex on each edge of its cells, five triangles a cell
   constexpr std::size_t kEdge = surface::kPatchEdge;
   patch_.vertices.reserve(3 * kEdge * (kEdge + 1) * (kEdge + 1));
@@ -34,8 +43,13 @@ TouchMethods::TouchMethods(const volume::IsoVertices& surface,
 bool TouchMethods::choose(Method method) BURR_RT {
   const Vec3 at = now().position();
   method_ = method;
+  if (number_ >= 0) return true;  // for the burr, when it is in the hand again
   now().place(at);
-  if (method != Method::constraint || constraint_->is_free(at)) return true;
+  return can_begin(at);
+}
+
+bool TouchMethods::can_begin(const Vec3& at) BURR_RT {
+  if (!haptics::begins_free(method_) || constraint_->is_free(at)) return true;
   // a hair in bone it comes out by itself, as from bone that grew under it
   const bool shallow =
       constraint_->set_radius(radius_ - kShallow * bone_.grid().voxel) && constraint_->is_free(at);
@@ -43,6 +57,25 @@ bool TouchMethods::choose(Method method) BURR_RT {
   static_cast<void>(constraint_->set_radius(radius_));
   constraint_->place(at);
   return shallow;
+}
+
+bool TouchMethods::take(int number) BURR_RT {
+  const math::Pose at =
+      number_ < 0 ? math::Pose{now().position(), math::Quat::Identity()} : tool_->pose();
+  number_ = number;
+  if (number < 0) {
+    now().place(at.p);
+    return can_begin(at.p);
+  }
+  tool_->take((*tools_)[static_cast<std::size_t>(number)].tool);
+  tool_->place(at);
+  return false;  // as the hand turns it, only the next tick knows
+}
+
+void TouchMethods::set_max_moves(int moves) BURR_RT {
+  constraint_->set_max_moves(moves);
+  shaft_->set_max_moves(moves);
+  if (tool_) tool_->set_max_moves(moves);
 }
 
 Vec3 TouchMethods::nowhere() const BURR_RT {

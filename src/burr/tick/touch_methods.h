@@ -1,5 +1,6 @@
 // tick/touch_methods.h - all touch methods for one bone, of which one is in use; it may be changed
-// between two ticks.
+// between two ticks. A tool that is no round burr has a method of its own (six/tool_touch.h), whichever
+// of them is chosen for the burr.
 //
 // The method "triangles" touches the triangles that a renderer would have: those of the patches
 // around the burr as they were at the last frame. Every 33rd tick the triangles of changed bone are
@@ -11,11 +12,15 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "burr/haptics/baselines/triangles.h"
 #include "burr/haptics/proxy.h"
+#include "burr/haptics/six/shaft_touch.h"
+#include "burr/haptics/six/tool_touch.h"
 #include "burr/haptics/touch_method.h"
 #include "burr/surface/mesher.h"
+#include "burr/tool/shaped_tool.h"
 
 namespace burr::tick {
 
@@ -23,22 +28,33 @@ class TouchMethods {
  public:
   static constexpr std::uint64_t kFrame = 33;  // ticks
 
+  // tools: that the session may take, outlives this; nullptr: none. number: of the first, -1: the burr
   TouchMethods(const volume::IsoVertices& surface, const haptics::ProxySettings& settings,
-               haptics::Method first);
+               haptics::Method first, const std::vector<tool::ShapedTool>* tools = nullptr,
+               int number = -1);
 
-  [[nodiscard]] haptics::TouchMethod& now() BURR_RT { return *all_[index(method_)]; }
+  [[nodiscard]] haptics::TouchMethod& now() BURR_RT {
+    return number_ < 0 ? *all_[index(method_)] : *tool_;
+  }
+  // nullptr: a burr is in the hand.
+  [[nodiscard]] haptics::ToolTouch* tool() BURR_RT { return number_ < 0 ? nullptr : tool_.get(); }
   [[nodiscard]] haptics::Method method() const BURR_RT { return method_; }
   // Ours, whichever is in use: it alone can say whether a place is free.
   [[nodiscard]] haptics::Proxy& constraint() BURR_RT { return *constraint_; }
 
   // False: the burr stands deep in bone where the method before left it, and has to come out first.
   [[nodiscard]] bool choose(haptics::Method method) BURR_RT;
+  // Takes another tool, or the burr (-1), at the place where the tool is. False: it is not free there.
+  [[nodiscard]] bool take(int number) BURR_RT;
+  // Fewer moves of the proxies in a tick take less time.
+  void set_max_moves(int moves) BURR_RT;
   // False: the one in use does not fit there, and nothing changed.
   [[nodiscard]] bool set_radius(double radius) BURR_RT;
   // Shows the triangles of this tick to the method that needs them.
   void show(std::uint64_t tick) BURR_RT;
 
  private:
+  [[nodiscard]] bool can_begin(const math::Vec3& at) BURR_RT;
   [[nodiscard]] math::Vec3 nowhere() const BURR_RT;  // world, far from all bone
   [[nodiscard]] static std::size_t index(haptics::Method method) {
     return static_cast<std::size_t>(method);
@@ -49,6 +65,10 @@ class TouchMethods {
   haptics::Method method_;
   std::array<std::unique_ptr<haptics::TouchMethod>, haptics::kMethods> all_;
   haptics::Proxy* constraint_ = nullptr;
+  haptics::ShaftTouch* shaft_ = nullptr;
+  const std::vector<tool::ShapedTool>* tools_;
+  int number_;
+  std::unique_ptr<haptics::ToolTouch> tool_;  // none: the session has no tools
   haptics::TriangleProxy* triangles_ = nullptr;
   surface::Mesher mesher_;
   surface::Patch patch_;

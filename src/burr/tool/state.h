@@ -1,8 +1,7 @@
 // tool/state.h - the tool in the hand as it is in one tick: what the servo really uses, after each
 // command of that tick was obeyed or refused. Every recorded tick holds one (record/schema.cpp).
 //
-// Plain struct. Today's tools are balls, so the radius names the tool; a number of a tool in a list
-// can be added as one more field. Units: SI. Frame of the mirror: the grid's.
+// Plain struct. A round burr is named by its radius, another tool by its number in the session's list. Units: SI. Frame of the mirror: the grid's.
 #pragma once
 
 #include "burr/tool/burr_tool.h"
@@ -21,6 +20,7 @@ struct ToolState {
   int mirror_axis = -1;    // of the grid, square to the mirror plane; -1: no mirror   [-]
   int mirror_twice = 0;    // place of that plane along the axis                       [half voxel]
   bool irrigated = false;  // coolant runs
+  int number = -1;         // of the tool in the session's list; -1: the round burr
 
   [[nodiscard]] bool operator==(const ToolState&) const = default;
 };

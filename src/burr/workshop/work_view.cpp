@@ -34,7 +34,11 @@ void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact) {
   scene.burr.visible = true;
   scene.burr.radius = row.tool.radius;
   scene.burr.diamond = row.tool.kind == tool::BurrKind::diamond;
-  scene.burr.world_from_tool = {row.contact.proxy, row.hand.world_from_tool.q};
+  // contact may have turned the tool away from the hand
+  const double angle = row.contact.turn.norm();
+  const math::Quat turn(angle > 0 ? Eigen::AngleAxisd(angle, math::Vec3(row.contact.turn / angle))
+                                  : Eigen::AngleAxisd::Identity());
+  scene.burr.world_from_tool = {row.contact.proxy, turn * row.hand.world_from_tool.q};
   if (contact)
     render::show_contact(scene, row.hand.world_from_tool.p, row.contact.proxy, row.contact.force);
 }

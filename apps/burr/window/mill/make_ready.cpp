@@ -44,7 +44,9 @@ math::Quat view_of_hand(const render::Camera& camera) {
 
 Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared,
                          Progress& progress) {
-  sim::SessionSettings settings = settings_of(options, true);
+  auto chosen = settings_of(options, true);
+  if (!chosen) return chosen.error();
+  sim::SessionSettings& settings = *chosen;
   // the hand starts 20 mm above the work
   math::Pose above;
   above.p = prepared.place.at - 20e-3 * prepared.place.into;

@@ -26,6 +26,7 @@
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
+#include "burr/workshop/tool_looks.h"
 #include "window/hands/mouse_aim.h"
 #include "window/hands/mouse_hand.h"
 #include "window/mill/drill.h"
@@ -79,7 +80,8 @@ class Mill {
         pointer_(desk, scene),
         aim_(session.bone().grid().voxel),
         mirror_(session.bone().grid()),
-        drill_(session, scene.burr) {
+        drill_(session, scene.burr),
+        looks_(session.settings().servo.tools) {
     if (options_.lesson) steps_ = Steps(options_.lesson->steps);
     take_titles_of(options_.lesson ? &*options_.lesson : nullptr);
   }
@@ -315,7 +317,8 @@ class Mill {
   Measuring measuring_;
   MirrorMode mirror_;
   Drill drill_;
-  render::HeldTool held_;  // how a tool without an orientation of its own is drawn
+  workshop::ToolLooks looks_;  // of tools other than the round burr
+  render::HeldTool held_;      // how a tool without an orientation of its own is drawn
   Clock::time_point held_at_{};
 
   // what the user reads

@@ -13,6 +13,7 @@
 #include "burr/rt/flags.h"
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/fault_file.h"
+#include "burr/workshop/work_view.h"
 #include "window/mill/mill.h"
 #include "window/mill/steps_panel.h"
 #include "window/mill/views_bar.h"
@@ -91,6 +92,11 @@ void Mill::draw_tool() {
   const double seconds =
       std::min(0.1, std::chrono::duration<double>(now - std::exchange(held_at_, now)).count());
   const bool own = hands_.real != nullptr || headset_.wand();
+  if (row_.tool.number >= 0) {  // its direction matters to what it cuts: drawn as it is held
+    workshop::put_tool(scene_, row_, false);
+    looks_.put(scene_, row_.tool.number);
+    return;
+  }
   const math::Pose hand = {row_.contact.proxy, row_.hand.world_from_tool.q};
   scene_.burr.world_from_tool =
       own ? hand : held_.at(scene_, hand.p, desk_.settings.left_handed, seconds);

@@ -5,6 +5,7 @@
 #include "burr/haptics/baselines/triangles.h"
 #include "burr/haptics/baselines/voxel_springs.h"
 #include "burr/haptics/proxy.h"
+#include "burr/haptics/six/shaft_touch.h"
 #include "burr/haptics/touch_method.h"
 
 namespace burr::haptics {
@@ -27,6 +28,8 @@ std::unique_ptr<TouchMethod> make_method(Method method, const volume::IsoVertice
       return std::make_unique<TriangleProxy>(bone.grid().voxel, settings, hand);
     case Method::penalty:
       return std::make_unique<PenaltyProxy>(bone, settings, hand);
+    case Method::shaft:
+      return std::make_unique<ShaftTouch>(surface, settings, hand);
   }
   return std::make_unique<Proxy>(surface, settings, hand);
 }

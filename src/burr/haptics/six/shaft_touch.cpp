@@ -1,8 +1,8 @@
 #include "burr/haptics/six/shaft_touch.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "burr/haptics/six/tool_touch.h"
 #include "burr/math/sums.h"
 
 namespace burr::haptics {
@@ -15,10 +15,6 @@ tool::Tool burr_of(double radius) BURR_RT {
   tool::Burr burr;
   burr.radius = radius;
   return tool::burr_with_shaft(burr);
-}
-
-Vec3 stretch_of(const Touch& touch) BURR_RT {
-  return touch.touching ? Vec3(touch.depth * touch.normal + touch.tangential) : Vec3(Vec3::Zero());
 }
 
 // Beyond it the head is not where the proxy of three unknowns has it                  [m]
@@ -38,7 +34,8 @@ ShaftTouch::ShaftTouch(const volume::IsoVertices& surface, const ProxySettings& 
 
 void ShaftTouch::place(const Vec3& p) BURR_RT {
   ball_.place(p);
-  shaft_ = rests_ = known_ = false;
+  shaft_ = rests_ = false;
+  slip_.restart();
 }
 
 void ShaftTouch::set_friction(double mu_static, double mu_kinetic) BURR_RT {
@@ -92,52 +89,10 @@ Touch ShaftTouch::as_ball(const Pose& hand) BURR_RT {
 }
 
 Touch ShaftTouch::as_tool(const SixTouch& six) BURR_RT {
-  Touch touch;
-  touch.proxy = six.world_from_tool.p;
-  touch.active = std::min(six.active, 3);
-  touch.candidates = six.candidates;
-  touch.lagging = six.lagging;
-  touch.overflow = six.overflow;
-  touch.depth = math::norm(six.stretch);
-  touch.touching = six.active > 0 && touch.depth > 1e-12;
-  if (touch.touching) touch.normal = six.stretch / touch.depth;
-  for (int a = 0; a < six.active; ++a) {
-    const SixContact& contact = six.contacts[static_cast<std::size_t>(a)];
-    touch.pressing += contact.load;
-    const auto part = static_cast<std::size_t>(contact.part);
-    if (six_.tool().parts[part].role == tool::Role::cuts)
-      contact_.head += contact.load * contact.normal;
-  }
-  contact_.torque = six.turn * (kLever * kLever);
+  Touch touch = touch_of(six, six_.tool(), kLever, contact_);
   // the next tick of the head alone begins here
   ball_.place(touch.proxy);
   return touch;
-}
-
-// As Proxy::limit_slip, while the shaft rests and until the stretch has caught up after that.
-void ShaftTouch::limit_slip(const Vec3& hand, Touch& touch) BURR_RT {
-  const Vec3 before = last_stretch_, stretch = stretch_of(touch);
-  const Vec3 change = stretch - before;
-  const double most = math::norm(hand - last_hand_) + slip_, length = math::norm(change);
-  const bool limited = known_ && slip_ > 0 && follows_ && length > most;
-  last_hand_ = hand;
-  last_stretch_ = stretch;
-  follows_ = contact_.rests || limited;
-  known_ = true;
-  if (!limited) return;
-  const Vec3 allowed = before + change * (most / length);
-  last_stretch_ = allowed;
-  const double along = touch.touching ? math::dot(allowed, touch.normal) : 0;
-  touch.touching = true;
-  if (along > 0) {
-    touch.depth = along;
-    touch.tangential = allowed - along * touch.normal;
-  } else {
-    touch.slipping = true;
-    touch.depth = math::norm(allowed);
-    touch.normal = allowed / std::max(touch.depth, 1e-12);
-    touch.tangential = Vec3::Zero();
-  }
 }
 
 Touch ShaftTouch::step_pose(const Pose& hand) BURR_RT {
@@ -147,10 +102,11 @@ Touch ShaftTouch::step_pose(const Pose& hand) BURR_RT {
   if (rests_) {
     const SixTouch six = six_.step(hand);
     touch = as_tool(six);
-    contact_.rests = rests_ = shaft_rests(six) || six.lagging;
-    if (contact_.rests) follows_ = true;
+    contact_.rests = rests_ = contact_.rests || six.lagging;
+    follows_ = follows_ || rests_;
   }
-  limit_slip(hand.p, touch);
+  const bool limited = slip_.step(hand.p, follows_, touch);
+  follows_ = contact_.rests || limited;
   return touch;
 }
 

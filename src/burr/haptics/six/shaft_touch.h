@@ -5,7 +5,7 @@
 //                                 turns where it must, on a virtual spring of turning k_r = k_t L^2
 //
 // Only the force is meant to be sent. The torque that the hand would have to feel beside it is in
-// ShaftContact; so is the head's own share of the contact, with which alone it may cut: the shaft
+// ToolContact; so is the head's own share of the contact, with which alone it may cut: the shaft
 // never cuts. While the shaft touches there is no friction, and the stretch of the spring changes no faster
 // than ProxySettings::slip allows: so no step is felt when one proxy takes over from the other.
 //
@@ -17,18 +17,11 @@
 
 #include "burr/haptics/proxy.h"
 #include "burr/haptics/six/six_proxy.h"
+#include "burr/haptics/six/slip_limit.h"
 #include "burr/haptics/touch_method.h"
 #include "burr/rt/rt.h"
 
 namespace burr::haptics {
-
-// What the shaft adds to a Touch. World frame.
-struct ShaftContact {
-  bool rests = false;  // the shaft is on bone
-  math::Vec3 head =
-      math::Vec3::Zero();  // the part of the stretch that the head's contacts carry [m]
-  math::Vec3 torque = math::Vec3::Zero();  // about the head's centre, over k_t; not sent [m^2]
-};
 
 class ShaftTouch final : public TouchMethod {
  public:
@@ -41,8 +34,9 @@ class ShaftTouch final : public TouchMethod {
 
   void place(const math::Vec3& p) BURR_RT override;
   [[nodiscard]] Touch step(const math::Vec3& hand) BURR_RT override;
-  [[nodiscard]] Touch step_pose(const math::Pose& hand) BURR_RT;
-  [[nodiscard]] const ShaftContact& shaft() const BURR_RT { return contact_; }
+  [[nodiscard]] Touch step_pose(const math::Pose& hand) BURR_RT override;
+  [[nodiscard]] const ToolContact& shaft() const BURR_RT { return contact_; }
+  [[nodiscard]] const ToolContact* parts() const BURR_RT override { return &contact_; }
   [[nodiscard]] math::Pose pose() const BURR_RT { return six_.pose(); }
   [[nodiscard]] const math::Vec3& position() const BURR_RT override { return ball_.position(); }
   void set_friction(double mu_static, double mu_kinetic) BURR_RT override;
@@ -53,17 +47,14 @@ class ShaftTouch final : public TouchMethod {
   [[nodiscard]] bool shaft_rests(const SixTouch& six) const BURR_RT;
   [[nodiscard]] Touch as_ball(const math::Pose& hand) BURR_RT;
   [[nodiscard]] Touch as_tool(const SixTouch& six) BURR_RT;
-  void limit_slip(const math::Vec3& hand, Touch& touch) BURR_RT;
 
   Proxy ball_;
   SixProxy six_;
-  double slip_;         // [m/tick]
   bool shaft_ = false;  // it has been free since the burr was put down
   bool rests_ = false;  // on bone, in the last tick
-  ShaftContact contact_;
+  ToolContact contact_;
   bool follows_ = false;  // the stretch is limited: the shaft rests, or the spring still follows
-  math::Vec3 last_hand_ = math::Vec3::Zero(), last_stretch_ = math::Vec3::Zero();
-  bool known_ = false;  // these two
+  SlipLimit slip_;
 };
 
 }  // namespace burr::haptics

@@ -287,6 +287,29 @@ void SixProxy::go(const Six& z) BURR_RT {
   r_ = math::turned(r_, Vec3(z[3], z[4], z[5]) / lever_);
 }
 
+// Where the point of a row is, seen from c, in the grid: a row holds the normal and w x n, so w is
+// known but for its part along n. Along the normal the distance to a convex part falls by as much as
+// one goes, so one look from far outside finds it; for a spoon the nearest of many looks.  [voxel]
+Vec3 SixProxy::arm_of(int part, const Vec3& normal, const Vec3& across, double gap) const BURR_RT {
+  const tool::Part& one = tool_.parts[index(part)];
+  const Quat part_from_grid = math::product(r_, one.tool_from_part.q).conjugate();
+  const Vec3 middle = r_ * Vec3(one.tool_from_part.p / grid_.voxel);
+  const auto phi = [&](double along) BURR_RT {
+    const Vec3 w = across + along * normal - middle;
+    return tool::distance(shape_[index(part)], part_from_grid * w).phi - gap;
+  };
+  const double far = far_[index(part)] + 2;
+  if (tool::convex(one.shape.kind)) return across + (phi(-far) - far) * normal;
+  double best = 0, least = far;
+  for (double along = -far; along <= far; along += 0.25) {
+    const double off = std::abs(phi(along));
+    if (off >= least) continue;
+    least = off;
+    best = along;
+  }
+  return across + best * normal;
+}
+
 void SixProxy::report(const LeastTwist& last, const Vec3& x, const Quat& q,
                       SixTouch& touch) const BURR_RT {
   const Quat& frame = grid_.frame.q;
@@ -304,6 +327,9 @@ void SixProxy::report(const LeastTwist& last, const Vec3& x, const Quat& q,
     const Vec3 m(static_cast<double>(rows_->m[0][j]), static_cast<double>(rows_->m[1][j]),
                  static_cast<double>(rows_->m[2][j]));
     contact.normal = frame * n;
+    // m is over L
+    contact.arm = frame * Vec3(grid_.voxel * arm_of(contact.part, n, n.cross(lever_ * m),
+                                                    static_cast<double>(rows_->gap[j])));
     contact.lever = frame * Vec3(m * settings_.lever);
     contact.load = last.push[a] * grid_.voxel;
   }

@@ -20,6 +20,7 @@
 
 #include "burr/haptics/six/least_twist.h"
 #include "burr/haptics/six/row_kernel.h"
+#include "burr/haptics/tool_contact.h"
 #include "burr/math/pose.h"
 #include "burr/rt/rt.h"
 #include "burr/tool/tool.h"
@@ -34,15 +35,6 @@ struct SixSettings {
   double longest = 1e-3;         // of a move                                               [m]
   double most_turn = 10e-3;      // of a move                                             [rad]
   double push_out_speed = 5e-3;  // of bone that grew under the tool                 [voxel/tick]
-};
-
-// One row on which the tool rests. Where many points carry a flat face, their loads are one of many
-// possible sets; only their sum means something.
-struct SixContact {
-  int part = 0;                            // of the tool
-  math::Vec3 normal = math::Vec3::Zero();  // unit, from the bone to the tool, world
-  math::Vec3 lever = math::Vec3::Zero();   // w x n, world [m]
-  double load = 0;                         // force / k_t [m]
 };
 
 struct SixTouch {
@@ -100,6 +92,8 @@ class SixProxy {
   [[nodiscard]] LeastTwist solve(const Six& wanted) BURR_RT;
   [[nodiscard]] LeastTwist move(const Six& wanted, Limits& guess, bool& cut_short,
                                 SixTouch& touch) BURR_RT;
+  [[nodiscard]] math::Vec3 arm_of(int part, const math::Vec3& normal, const math::Vec3& across,
+                                  double gap) const BURR_RT;
   void go(const Six& z) BURR_RT;
   void report(const LeastTwist& last, const math::Vec3& x, const math::Quat& q,
               SixTouch& touch) const BURR_RT;

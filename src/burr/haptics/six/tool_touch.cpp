@@ -1,0 +1,76 @@
+#include "burr/haptics/six/tool_touch.h"
+
+#include <algorithm>
+
+#include "burr/math/sums.h"
+
+namespace burr::haptics {
+
+using math::Pose;
+using math::Vec3;
+
+Touch touch_of(const SixTouch& six, const tool::Tool& tool, double lever,
+               ToolContact& contact) BURR_RT {
+  Touch touch;
+  touch.proxy = six.world_from_tool.p;
+  touch.active = std::min(six.active, 3);
+  touch.candidates = six.candidates;
+  touch.lagging = six.lagging;
+  touch.overflow = six.overflow;
+  touch.depth = math::norm(six.stretch);
+  touch.touching = six.active > 0 && touch.depth > 1e-12;
+  if (touch.touching) touch.normal = six.stretch / touch.depth;
+  for (int a = 0; a < six.active; ++a) {
+    const SixContact& one = six.contacts[static_cast<std::size_t>(a)];
+    touch.pressing += one.load;
+    const tool::Role role = tool.parts[static_cast<std::size_t>(one.part)].role;
+    if (role == tool::Role::cuts) contact.head += one.load * one.normal;
+    if (role == tool::Role::rubs && one.load > 0) contact.rests = true;
+  }
+  contact.torque = six.turn * (lever * lever);
+  contact.turn = six.turn;
+  contact.active = six.active;
+  contact.contacts = six.contacts;
+  contact.by_part = true;
+  return touch;
+}
+
+ToolTouch::ToolTouch(const volume::IsoVertices& surface, const tool::Tool& tool,
+                     const ProxySettings& settings, double lever, const Pose& hand)
+    : six_(surface, tool,
+           {.lever = lever,
+            .max_moves = settings.max_moves,
+            .push_out_speed = settings.push_out_speed},
+           hand),
+      slip_(settings.slip),
+      lever_(lever),
+      pose_(hand) {}
+
+void ToolTouch::take(const tool::Tool& tool) BURR_RT {
+  six_.take(tool);
+  slip_.restart();
+  contact_ = {};
+}
+
+void ToolTouch::place(const Pose& world_from_tool) BURR_RT {
+  pose_ = world_from_tool;
+  six_.place(pose_);
+  slip_.restart();
+  contact_ = {};
+}
+
+void ToolTouch::place(const Vec3& p) BURR_RT { place(Pose{p, pose_.q}); }
+
+Touch ToolTouch::step(const Vec3& hand) BURR_RT { return step_pose({hand, pose_.q}); }
+
+Touch ToolTouch::step_pose(const Pose& hand) BURR_RT {
+  contact_ = {};
+  const SixTouch six = six_.step(hand);
+  pose_ = six.world_from_tool;
+  Touch touch = touch_of(six, six_.tool(), lever_, contact_);
+  const bool limited = slip_.step(hand.p, follows_ || six.active > 0, touch);
+  follows_ = six.active > 0 || limited;
+  return touch;
+}
+
+}  // namespace burr::haptics
