@@ -40,7 +40,9 @@ class Replay : public Window {
     auto work = open_work(options, quiet);
     ASSERT_TRUE(work) << work.error().text;
     before_ = work->bone->content_hash();
-    const sim::SessionSettings settings = settings_of(options, false);
+    const auto chosen = settings_of(options, false);
+    ASSERT_TRUE(chosen) << chosen.error().text;
+    const sim::SessionSettings& settings = *chosen;
     auto path = surgeon::motion("pocket", work->place, settings.servo.burr.radius, kSeconds);
     ASSERT_TRUE(path) << path.error().text;
     auto session = sim::Session::make(
