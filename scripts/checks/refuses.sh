@@ -52,6 +52,10 @@ if grep -qE '^  info' <<<"$all"; then
   expect 65 'rubbish' "$burr" info "$place/rubbish.nrrd"
   expect 65 'empty' "$burr" info "$place/empty.nii.gz"
 fi
+if grep -qE '^  mill' <<<"$all"; then
+  expect 65 'no-such-tool.*fissure-bur' "$burr" mill phantom:block --motion slot --tool no-such-tool
+  expect 2 '[-][-]tool' "$burr" mill phantom:block --motion slot --tools tools/tools.toml
+fi
 if grep -qE '^  replay' <<<"$all"; then
   expect 74 'no/such' "$burr" replay "$place/no/such.mcap"
   expect 65 'rubbish' "$burr" replay "$place/rubbish.nrrd"

@@ -19,9 +19,12 @@ void add_tool_options(CLI::App& command, ToolOptions& options) {
 }
 
 Status take_tool(const ToolOptions& options, tick::ServoSettings& settings) {
+  if (options.tool.empty() && options.tools.empty()) return fine();
   const auto rack = rack_of(options);
   if (!rack) return rack.error();
-  if (options.tool.empty()) return fine();
+  if (options.tool.empty())
+    return error(Trouble::usage, "--tools " + options.tools +
+                                     ": a session takes one tool of the list; name it with --tool");
   const auto tool = rack->get(options.tool);
   if (!tool) return tool.error();
   settings.tools = {{tool->name, tool->tool, tool->cutter}};

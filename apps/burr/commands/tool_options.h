@@ -1,5 +1,4 @@
-// apps/burr/commands/tool_options.h - the options that name a tool of the rack, and how a burr
-// touches.
+// apps/burr/commands/tool_options.h - the options that name a tool of the rack.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,7 +17,7 @@ struct ToolOptions {
 // --tool, --tools
 void add_tool_options(CLI::App& command, ToolOptions& options);
 // The tool that was named, alone in the session's list; without one nothing changes. Error: an
-// unknown name, with those that there are; a mistake in the list.
+// unknown name, with those that there are; a mistake in the list; a list without a name.
 [[nodiscard]] Status take_tool(const ToolOptions& options, tick::ServoSettings& settings);
 
 }  // namespace burr::app

@@ -33,7 +33,7 @@ class Views {
   void placed(const render::Scene& scene);
   // A step of magnification, nearer with by > 0. False: this is no microscope.
   bool magnify(double by, render::Scene& scene);
-  // Depth of field under the microscope: on, off; true when on. It needs a graphics card to be fast.
+  // Depth of field under the microscope, on or off. It needs a graphics card to be fast.
   void deep(bool on) { deep_ = on; }
   [[nodiscard]] bool deep() const { return deep_ && kind_ == ViewKind::microscope; }
   // Moves the plane in focus by steps of kFine, away from the eye with by > 0; switches depth of field
