@@ -56,6 +56,11 @@ TEST(Case, IsReadIntoMetresAndRadians) {
   EXPECT_EQ(read->targets[0].goal, Goal::remove);
   EXPECT_DOUBLE_EQ(read->targets[0].share, 0.5);
   EXPECT_EQ(read->spare, std::vector<std::string>{"nerve"});
+  EXPECT_EQ(read->tool, "");
+  const auto named = parse_case(
+      with(kGood, "title = \"A case\"", "title = \"A case\"\ntool = \"flame\""), "a.toml");
+  ASSERT_TRUE(named.ok()) << named.error().text;
+  EXPECT_EQ(named->tool, "flame");
 }
 
 TEST(Case, MistakesAreNamedByFileAndField) {
@@ -83,6 +88,7 @@ TEST(Case, MistakesAreNamedByFileAndField) {
       {"share = 0.5", "share = 1.5", "target[1].share", "at most 1"},
       {"[[spare]]\ntissue = \"nerve\"", "[spare]\ntissue = \"nerve\"", "spare", "list of tables"},
       {"[[spare]]\ntissue = \"nerve\"", "[[spare]]", "spare[1].tissue", "missing"},
+      {"title = \"A case\"", "title = \"A case\"\ntool = \"spoon\"", "tool", "use one of fissure-bur"},
       {"into = [0, 0, -2]", "into = [0, 0", "line", ""},
   };
   for (const Mistake& mistake : mistakes) {

@@ -92,6 +92,7 @@ TEST(Rack, AMistakeIsOneSentenceWithLineAndField) {
       {"rpm = 1000", "stroke_mm = 2",
        "line 5: tool[1].stroke_mm: belongs to drive = \"oscillating or reciprocating\""},
       {"rpm = 1000\n", "", "tool[1].rpm: is missing"},
+      {"rpm = 1000", "rpm = 1000\nlean_deg = 91", "tool[1].lean_deg: must be a number above 0 and at most 90"},
       {"\"cuts\"", "\"rubs\"", "tool[1].part: none cuts"},
       {"shape = \"cylinder\"", "shape = \"tube\"",
        "tool[1].part[1].shape: \"tube\" is not known; use one of ball, capsule"},

@@ -268,9 +268,10 @@ TEST(Technique, TheToolOfTheStepIsABand) {
   scenario::Step step;
   step.kind = tool::BurrKind::diamond;
   step.diameter = {2e-3, 4e-3};
-  const auto cue = [&step](tool::BurrKind kind, double diameter) {
+  const auto cue = [&step](tool::BurrKind kind, double diameter, const char* tool = "") {
     Technique technique;
     Technique::Moment moment;
+    moment.tool = tool;
     moment.cutting = true;
     moment.force = 1;
     moment.kind = kind;
@@ -287,6 +288,12 @@ TEST(Technique, TheToolOfTheStepIsABand) {
   EXPECT_EQ(cue(tool::BurrKind::cutting, 3e-3), Cue::kind);
   EXPECT_EQ(cue(tool::BurrKind::diamond, 1e-3), Cue::larger);
   EXPECT_EQ(cue(tool::BurrKind::diamond, 6e-3), Cue::smaller);
+  EXPECT_EQ(cue(tool::BurrKind::diamond, 3e-3, "flame"), Cue::kind) << "the round burr suits";
+  step.kind.reset();
+  step.diameter.reset();
+  step.tool = "flame";
+  EXPECT_EQ(cue(tool::BurrKind::cutting, 6e-3, "flame"), Cue::none) << "the burr's size is idle";
+  EXPECT_EQ(cue(tool::BurrKind::cutting, 6e-3), Cue::kind);
 }
 
 }  // namespace

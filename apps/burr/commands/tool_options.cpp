@@ -1,6 +1,7 @@
 #include "commands/tool_options.h"
 
 #include "burr/scenario/rack.h"
+#include "burr/tool/shaped_tool.h"
 
 namespace burr::app {
 namespace {
@@ -30,6 +31,26 @@ Status take_tool(const ToolOptions& options, tick::ServoSettings& settings) {
   settings.tools = {{tool->name, tool->tool, tool->cutter}};
   settings.tool = 0;
   return fine();
+}
+
+Result<std::vector<scenario::RackTool>> offer_rack(const ToolOptions& options, double voxel,
+                                                   tick::ServoSettings& settings) {
+  const auto rack = rack_of(options);
+  if (!rack) return rack.error();
+  settings.tools.clear();
+  settings.tool = -1;
+  if (!options.tool.empty())
+    if (const auto named = rack->get(options.tool); !named) return named.error();
+  std::vector<scenario::RackTool> offered;
+  for (const scenario::RackTool& tool : rack->all) {
+    // a thinner one is refused by the session with its reason, where the user named it
+    const bool named = tool.name == options.tool;
+    if (!named && tool::thinnest(tool.tool) < voxel - 1e-9) continue;
+    if (named) settings.tool = static_cast<int>(offered.size());
+    settings.tools.push_back({tool.name, tool.tool, tool.cutter});
+    offered.push_back(tool);
+  }
+  return offered;
 }
 
 }  // namespace burr::app

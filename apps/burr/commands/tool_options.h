@@ -3,8 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "burr/base/result.h"
+#include "burr/scenario/rack.h"
 #include "burr/tick/settings.h"
 
 namespace burr::app {
@@ -19,5 +21,13 @@ void add_tool_options(CLI::App& command, ToolOptions& options);
 // The tool that was named, alone in the session's list; without one nothing changes. Error: an
 // unknown name, with those that there are; a mistake in the list; a list without a name.
 [[nodiscard]] Status take_tool(const ToolOptions& options, tick::ServoSettings& settings);
+
+
+// For a session in the window, where the user changes the tool: all tools of the rack whose parts are
+// as thick as a voxel [m] or thicker go into the session's list, and the named one, if any, into the
+// hand. Returns them in the same order. Error: as above, but a list without a name is none.
+[[nodiscard]] Result<std::vector<scenario::RackTool>> offer_rack(const ToolOptions& options,
+                                                                 double voxel,
+                                                                 tick::ServoSettings& settings);
 
 }  // namespace burr::app

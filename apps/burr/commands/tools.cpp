@@ -13,8 +13,8 @@
 #include "burr/base/printable.h"
 #include "burr/render/picture.h"
 #include "burr/render/renderer.h"
-#include "burr/render/tool_mesh.h"
 #include "burr/scenario/rack.h"
+#include "burr/workshop/tool_picture.h"
 #include "commands/command.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
@@ -25,8 +25,6 @@ namespace {
 using scenario::RackTool;
 using tool::Drive;
 
-constexpr double kShown = 44e-3,
-                 kBelow = 14e-3;  // of a tool: height, and part below its origin [m]
 constexpr int kAcross = 5, kTileWide = 240, kTileHigh = 320;  // [pixel]
 
 struct Options {
@@ -96,21 +94,8 @@ nlohmann::json to_json(const scenario::Rack& rack) {
   return {{"tools", list}};
 }
 
-// One tool, seen from the side and a little from above, with its tip down.
 render::Scene scene_of(const RackTool& tool) {
-  render::Scene scene;
-  auto look = std::make_shared<render::ToolLook>();
-  look->cuts = render::mesh_of(tool.tool, tool::Role::cuts);
-  look->rubs = render::mesh_of(tool.tool, tool::Role::rubs);
-  scene.burr.visible = true;
-  scene.burr.other = std::move(look);
-  scene.camera.target = {0, 0, kShown / 2 - kBelow};
-  scene.camera.distance = 0.3;
-  scene.camera.azimuth = 0.6;
-  scene.camera.elevation = 0.2;
-  scene.camera.field_of_view = 2 * std::atan(0.5 * kShown / scene.camera.distance);
-  scene.look.background_top = {0.93F, 0.94F, 0.95F};
-  scene.look.background_bottom = {0.78F, 0.80F, 0.83F};
+  render::Scene scene = workshop::tool_picture(tool.tool);
   scene.text = {tool.name};
   scene.scale_bar = true;
   return scene;

@@ -61,6 +61,7 @@ void take_case(WorkOptions& options, const scenario::Case& work) {
   options.into = work.into;
   options.motion = work.motion;
   options.kind = work.burr.kind;
+  if (options.tool.tool.empty()) options.tool.tool = work.tool;
   options.spare = work.spare;
   options.work_case = work;
 }

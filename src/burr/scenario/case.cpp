@@ -11,6 +11,7 @@
 #include "burr/base/text_file.h"
 #include "burr/scenario/built_in.h"
 #include "burr/scenario/lesson.h"
+#include "burr/scenario/rack.h"
 #include "burr/scenario/read_lesson.h"
 #include "burr/scenario/toml_reader.h"
 
@@ -49,7 +50,8 @@ void read_all(Reader& reader, Case& out) {
   reader.only({"format",    "title",  "description",  "phantom",  "volume",
                "voxel_mm",  "rubric", "approach",     "work",     "burr",
                "demo",      "spare",  "target",       "landmark", "region",
-               "structure", "step",   "complication", "feedback", "reference"});
+               "structure", "step",   "complication", "feedback", "reference",
+               "tool"});
   Texts title, description;
   read_texts(reader, "title", title, true);
   read_texts(reader, "description", description);
@@ -60,6 +62,10 @@ void read_all(Reader& reader, Case& out) {
   if (out.phantom.empty() == out.volume.empty())
     reader.fail("phantom", "give either phantom = \"NAME\" or volume = \"FILE\"");
   reader.text("rubric", out.rubric);
+  reader.text("tool", out.tool);
+  if (!out.tool.empty())
+    if (const auto known = built_in_rack().get(out.tool); !known)
+      reader.fail("tool", known.error().text);
   double voxel_mm = 0;
   reader.number("voxel_mm", voxel_mm, 0, 10);
   out.voxel = 1e-3 * voxel_mm;

@@ -46,6 +46,7 @@ struct Case {
   std::optional<math::Vec3> at;    // world, LPS [m]
   std::optional<math::Vec3> into;  // unit
 
+  std::string tool;  // of the rack, in the hand at the start; empty: the round burr
   tool::Burr burr;
   double full_speed = 0;  // of the spindle [rad/s]
 

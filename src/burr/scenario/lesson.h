@@ -119,7 +119,8 @@ struct Step {
   Texts title, say;
   std::string structure, region;          // what is worked on, and where; empty: not said
   std::vector<std::string> spare;         // names of structures
-  std::optional<tool::BurrKind> kind;     // the tool that suits
+  std::string tool;                       // that suits, of the rack; empty: the round burr
+  std::optional<tool::BurrKind> kind;     // of the round burr that suits
   std::optional<Range> diameter;          // [m]
   std::vector<math::Vec3> approach;       // unit, to the surgeon; empty: that of the lesson
   std::vector<std::string> show;          // structures, regions or landmarks to be lit on demand

@@ -233,7 +233,7 @@ bool is_name(std::string_view name) {
 
 void read_tool(Reader& reader, Rack& rack) {
   reader.only({"name", "title", "group", "source", "drive", "rpm", "strokes_per_minute",
-               "stroke_mm", "blow_j", "way", "teeth", "efficiency", "least_weight", "part"});
+               "stroke_mm", "blow_j", "way", "teeth", "efficiency", "least_weight", "lean_deg", "part"});
   RackTool out;
   reader.text("name", out.name, true);
   if (!is_name(out.name))
@@ -243,6 +243,9 @@ void read_tool(Reader& reader, Rack& rack) {
   reader.text("group", out.group);
   reader.text("source", out.source);
   read_drive(reader, out.cutter);
+  double lean_deg = out.lean * 180 / std::numbers::pi;
+  reader.number("lean_deg", lean_deg, 0, 90);
+  out.lean = lean_deg * std::numbers::pi / 180;
   reader.each(
       "part", [&](Reader& inner) { read_part(inner, out.tool); },
       static_cast<std::size_t>(tool::Tool::kMostParts));

@@ -19,6 +19,8 @@
 
 namespace burr::scenario {
 
+inline constexpr double kUsualLean = 0.63;  // as a round burr is held: 36 degrees  [rad]
+
 struct RackTool {
   std::string name;    // "sagittal-saw": how it is chosen, and recorded
   Texts title;         // as a person reads it
@@ -26,6 +28,8 @@ struct RackTool {
   std::string source;  // where the sizes come from
   tool::Tool tool;
   tool::Cutter cutter;
+  // How far the handle leans away from the bone's normal where a mouse holds the tool  [rad]
+  double lean = kUsualLean;
 };
 
 struct Rack {

@@ -7,6 +7,7 @@
 #include <initializer_list>
 
 #include "burr/scenario/fade.h"
+#include "burr/scenario/rack.h"
 
 namespace burr::scenario {
 namespace {
@@ -48,10 +49,17 @@ void read_structure(Reader& reader, Structure& out) {
 }
 
 void read_tool(Reader& reader, Step& out) {
-  reader.only({"kind", "diameter_mm"});
+  reader.only({"kind", "diameter_mm", "name"});
   tool::BurrKind kind = tool::BurrKind::cutting;
-  if (!reader.has("kind") && !reader.has("diameter_mm"))
-    return reader.fail("kind", "is missing; give kind or diameter_mm");
+  if (!reader.has("kind") && !reader.has("diameter_mm") && !reader.has("name"))
+    return reader.fail("kind", "is missing; give kind or diameter_mm, or the name of a tool");
+  reader.text("name", out.tool);
+  if (!out.tool.empty()) {
+    if (const auto known = built_in_rack().get(out.tool); !known)
+      reader.fail("name", known.error().text);
+    for (const char* const other : {"kind", "diameter_mm"})
+      if (reader.has(other)) reader.fail(other, "is for the round burr; leave it out beside name");
+  }
   reader.choice<tool::BurrKind>(
       "kind", kind, {{"cutting", tool::BurrKind::cutting}, {"diamond", tool::BurrKind::diamond}});
   if (reader.has("kind")) out.kind = kind;

@@ -22,16 +22,18 @@ constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two calls
 Status check_tools(const tick::ServoSettings& servo, double voxel) {
   if (servo.tool < -1 || servo.tool >= static_cast<int>(servo.tools.size()))
     return error(Trouble::internal, "the session has no tool of this number");
-  if (servo.tool < 0) return fine();
-  const tool::ShapedTool& tool = servo.tools[static_cast<std::size_t>(servo.tool)];
-  const double thinnest = tool::thinnest(tool.tool);
-  if (thinnest < voxel - 1e-9)
+  for (const tool::ShapedTool& tool : servo.tools) {
+    const double thinnest = tool::thinnest(tool.tool);
+    if (thinnest >= voxel - 1e-9) continue;
     return error(
         Trouble::usage,
         fmt::format("--tool {}: its thinnest part is {:.2f} mm, thinner than a voxel of "
                     "{:.3f} mm; use --voxel-mm {:.3f} or finer (with --roi around the "
                     "work, if memory is short)",
                     tool.name, 1e3 * thinnest, 1e3 * voxel, std::floor(1e6 * thinnest) / 1e3));
+  }
+  if (servo.tool < 0) return fine();
+  const tool::ShapedTool& tool = servo.tools[static_cast<std::size_t>(servo.tool)];
   if (servo.removal.law != edit::RemovalLaw::energy)
     return error(
         Trouble::usage,

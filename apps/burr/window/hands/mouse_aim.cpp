@@ -45,8 +45,10 @@ MouseHand::Aim MouseAim::at(const render::Scene& scene, const render::Ray& eye,
   if (hit && !push) below_ = hit->p - 0.5 * scene.burr.radius * normal_;
   if (hit && push) {
     in_work_ = true;
-    MouseHand::Aim aim =
-        lean(hit->p + (scene.burr.radius - push->depth) * normal_, scene.camera, left_handed);
+    MouseHand::Aim aim = lean(hit->p, scene.camera, left_handed);
+    const double under =
+        other() ? grip_->reach_along(aim.world_from_tool.q, -normal_) : scene.burr.radius;
+    aim.world_from_tool.p += (under - push->depth) * normal_;
     aim.pedal = push->spindle;
     return aim;
   }
@@ -61,7 +63,7 @@ MouseHand::Aim MouseAim::over_drape(const render::Scene& scene, const render::Ra
   below_.reset();
   in_work_ = false;
   normal_ = ((1 - kFollow) * normal_ + kFollow * scene.camera.backward()).normalized();
-  const double reach = scene.burr.radius + air_;
+  const double reach = this->reach(scene) + air_;
   const auto room = render::room_before(scene, eye, std::max(covered - reach, 0.0), reach);
   const Vec3 tip = room ? Vec3(eye.origin + *room * eye.direction) : scene.burr.world_from_tool.p;
   MouseHand::Aim aim = lean(tip, scene.camera, left_handed);
@@ -72,7 +74,7 @@ MouseHand::Aim MouseAim::over_drape(const render::Scene& scene, const render::Ra
 // surface: along the ray [m]
 Vec3 MouseAim::hover(const render::Scene& scene, const render::Ray& eye,
                      const std::optional<render::Hit>& hit, double surface) {
-  const double radius = scene.burr.radius;
+  const double radius = reach(scene);
   const Vec3& burr = scene.burr.world_from_tool.p;
   const auto room = render::room_before(scene, eye, surface, radius + air_);
   const bool roomy = room && surface - *room < 2 * (radius + air_);
@@ -101,6 +103,11 @@ void MouseAim::touches(const Vec3& p, const std::optional<Vec3>& normal) {
 // The handle leans away from the view, to the side of the user's hand.
 MouseHand::Aim MouseAim::lean(const Vec3& tip, const render::Camera& camera,
                               bool left_handed) const {
+  if (other()) {
+    MouseHand::Aim aim;
+    aim.world_from_tool = {tip, grip_->turn(normal_, camera, left_handed)};
+    return aim;
+  }
   const double side = left_handed ? -0.7 : 0.7;
   const Vec3 handle = (normal_ + side * camera.right() + 0.2 * camera.above()).normalized();
   MouseHand::Aim aim;

@@ -14,6 +14,7 @@
 
 #include "burr/render/pick.h"
 #include "burr/render/scene.h"
+#include "window/hands/grip.h"
 #include "window/hands/mouse_hand.h"
 
 namespace burr::app {
@@ -21,6 +22,9 @@ namespace burr::app {
 class MouseAim {
  public:
   static constexpr double kHover = 1e-3;  // air between the burr that hovers and the bone  [m]
+
+  // How the tool is held; outlives this. nullptr: as a round burr.
+  void hold(const Grip* grip) { grip_ = grip; }
 
   // voxel: edge of the bone's voxels [m]
   explicit MouseAim(double voxel) : air_(std::max(kHover, voxel)) {}
@@ -53,6 +57,12 @@ class MouseAim {
   [[nodiscard]] MouseHand::Aim lean(const math::Vec3& tip, const render::Camera& camera,
                                     bool left_handed) const;
 
+  [[nodiscard]] bool other() const { return grip_ != nullptr && !grip_->burr(); }
+  // Of the ball that holds the working part: so much room it needs  [m]
+  [[nodiscard]] double reach(const render::Scene& scene) const {
+    return other() ? grip_->reach() : scene.burr.radius;
+  }
+  const Grip* grip_ = nullptr;
   double air_;
   math::Vec3 normal_ = math::Vec3::Zero();
   std::optional<math::Vec3> point_;  // of the last work

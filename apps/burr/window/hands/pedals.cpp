@@ -74,6 +74,7 @@ Pedals::Step Pedals::step(const SDL_Event& event, const PedalMap& map) const {
   });
   if (!ours || event.jbutton.button == map.mill) return Step::none;
   if (event.jbutton.button == map.burr) return Step::burr;
+  if (event.jbutton.button == map.tool) return Step::tool;
   return event.jbutton.button == map.coolant ? Step::coolant : Step::none;
 }
 

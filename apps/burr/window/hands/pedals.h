@@ -1,6 +1,6 @@
 // apps/burr/window/hands/pedals.h - foot pedals: joysticks that are not game controllers.
 //
-// The first axis, or a button, mills. Other buttons change the burr, switch the coolant and lift a
+// The first axis, or a button, mills. Other buttons change burr and tool, switch the coolant and lift a
 // haptic device. The settings say which button does what, because pedals differ. A milling pedal
 // that was down when it was plugged in mills only after it has been seen released (as in
 // gamepad.h). A joystick with more than three axes, or one that reports itself as a steering wheel
@@ -17,11 +17,12 @@ namespace burr::app {
 struct PedalMap {
   int mill = 0, burr = 1, coolant = 2, clutch = 3;
   int rest = -1;  // value of the axis with no foot on it: -1, 0 or 1
+  int tool = 4;   // the next tool of the rack
 };
 
 class Pedals {
  public:
-  enum class Step { none, burr, coolant };
+  enum class Step { none, burr, coolant, tool };
 
   Pedals();
   Pedals(const Pedals&) = delete;

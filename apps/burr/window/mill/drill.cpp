@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "burr/tool/burr_tool.h"
+#include "burr/tool/shaped_tool.h"
 
 namespace burr::app {
 namespace {
@@ -41,21 +42,41 @@ Drill::Drill(sim::Session& session, render::Burr& shown)
       shown_(shown),
       mode_(session.settings().servo.mode),
       full_speed_(session.settings().servo.spindle_rad_s),
+      tool_(session.settings().servo.tool),
+      burr_speed_(full_speed_),
       irrigated_(session.settings().servo.irrigated) {
   const tool::Burr& burr = session.settings().servo.burr;
   shown_.radius = burr.radius;
   shown_.diamond = burr.kind == tool::BurrKind::diamond;
   shown_.shaft_radius = burr.shaft_radius;
   shown_.shaft_length = burr.shaft_length;
+  if (tool_ < 0) return;
+  const auto number = static_cast<std::size_t>(tool_);
+  full_speed_ = usual_speed_ = tool::full_speed(session.settings().servo.tools[number].cutter);
 }
 
+// Only the round burr adds, smooths and brings back.
 std::string Drill::set_mode(tick::ToolMode mode) {
   mode_ = mode;
+  if (tool_ >= 0 && mode != tick::ToolMode::cut && mode != tick::ToolMode::touch)
+    static_cast<void>(take_tool(-1, nullptr));
   session_.command({tick::CommandKind::tool_mode, static_cast<double>(mode)});
   return word(says(mode));
 }
 
+std::string Drill::take_tool(int number, const scenario::RackTool* tool) {
+  if (number == tool_) return {};
+  if (tool_ < 0) burr_speed_ = full_speed_;
+  tool_ = number;
+  session_.command({tick::CommandKind::tool, static_cast<double>(number)});
+  usual_speed_ = tool != nullptr ? tool::full_speed(tool->cutter) : 0;
+  full_speed_ = tool != nullptr ? usual_speed_ : burr_speed_;
+  if (tool == nullptr || mode_ == tick::ToolMode::cut || mode_ == tick::ToolMode::touch) return {};
+  return set_mode(tick::ToolMode::cut);
+}
+
 std::string Drill::next_burr() {
+  if (tool_ >= 0) return word(Word::tool_one_size);
   const double largest = *std::rbegin(kSizes);
   const bool over = 2 * requested_.value_or(session_.burr_radius()) > largest - 1e-9;
   if (over) requested_ = 0;
@@ -63,6 +84,7 @@ std::string Drill::next_burr() {
 }
 
 std::string Drill::change_burr(int by) {
+  if (tool_ >= 0) return word(Word::tool_one_size);
   const double least =
       std::max(tool::kSmallestDiameter, 4 * session_.bone().grid().voxel);  // as tick/servo.cpp
   const double now = 2 * requested_.value_or(session_.burr_radius());
@@ -83,6 +105,7 @@ std::string Drill::slower() { return change_speed(-kRpmStep); }
 std::string Drill::faster() { return change_speed(kRpmStep); }
 
 std::string Drill::change_speed(double by_rpm) {
+  if (tool_ >= 0) return change_tool_speed(by_rpm > 0 ? 1 : -1);
   const double rpm =
       std::clamp(std::round(full_speed_ / kRpm / kRpmStep) * kRpmStep + by_rpm, kRpmStep, kRpmMost);
   full_speed_ = rpm * kRpm;
@@ -90,7 +113,17 @@ std::string Drill::change_speed(double by_rpm) {
   return say(Word::speed_now, rpm);
 }
 
+// In tenths of its own speed.
+std::string Drill::change_tool_speed(int by) {
+  if (usual_speed_ <= 0) return word(Word::tool_no_motor);
+  const double tenths = std::clamp(std::round(10 * full_speed_ / usual_speed_) + by, 1.0, 10.0);
+  full_speed_ = 0.1 * tenths * usual_speed_;
+  session_.command({tick::CommandKind::spindle_speed, full_speed_});
+  return say(Word::tool_speed_now, 10 * tenths);
+}
+
 std::string Drill::toggle_kind() {
+  if (tool_ >= 0) return word(Word::tool_one_size);
   shown_.diamond = !shown_.diamond;
   session_.command({tick::CommandKind::burr_kind, shown_.diamond ? 1.0 : 0.0});
   return word(shown_.diamond ? Word::now_diamond : Word::now_fluted);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "burr/render/scene.h"
+#include "burr/scenario/rack.h"
 #include "burr/sim/session.h"
 #include "window/shell/words.h"
 
@@ -27,6 +28,8 @@ class Drill {
   [[nodiscard]] std::string slower();
   [[nodiscard]] std::string faster();
   [[nodiscard]] std::string toggle_kind();
+  // number: in the session's list of tools, with the tool itself; -1, nullptr: the round burr
+  [[nodiscard]] std::string take_tool(int number, const scenario::RackTool* tool);
   [[nodiscard]] std::string toggle_coolant();
 
   // Call it in each picture: returns whether a requested burr was accepted or refused; "" until
@@ -36,15 +39,20 @@ class Drill {
   [[nodiscard]] tick::ToolMode mode() const { return mode_; }
   [[nodiscard]] bool irrigated() const { return irrigated_; }
   [[nodiscard]] double full_speed() const { return full_speed_; }  // requested  [rad/s]
+  [[nodiscard]] int tool() const { return tool_; }                 // requested; -1: the round burr
 
  private:
   using Clock = std::chrono::steady_clock;
   std::string change_speed(double by_rpm);
+  std::string change_tool_speed(int by);
 
   sim::Session& session_;
   render::Burr& shown_;
   tick::ToolMode mode_;
   double full_speed_;
+  int tool_;                // in the session's list
+  double usual_speed_ = 0;  // of that tool; 0: it has no motor, or is the round burr  [rad/s]
+  double burr_speed_;       // of the round burr, while another tool is in the hand    [rad/s]
   bool irrigated_;
   std::optional<double> requested_;  // requested radius, until the servo has it or has refused [m]
   Clock::time_point requested_at_{};

@@ -203,6 +203,31 @@ std::string thousands(double value) {
                       : fmt::format("{} {:03}", whole / 1000, whole % 1000);
 }
 
+void speed_cell(Strip& strip, const HudState& s) {
+  const std::string value = thousands(std::abs(s.speed) * 60 / (2 * std::numbers::pi));
+  if (!s.motor) return strip.cell(176, Word::speed, "-", word(Word::by_hand));
+  // a longer word leaves no room for the load
+  if (!s.turns) return strip.cell(176, Word::speed, value, word(Word::per_minute));
+  strip.cell(176, Word::speed, value, fmt::format("rpm  {}", say(Word::load, 100 * s.load)));
+}
+
+void tool_cell(const Ui& ui, Strip& strip, const HudState& s) {
+  const std::string value = fmt::format("{:g}", std::round(1e5 * s.burr_diameter) / 100);
+  if (s.tool.empty())
+    return strip.cell(132, Word::burr, value,
+                      fmt::format("mm  {}", word(s.diamond && s.mode == tick::ToolMode::cut
+                                                     ? Word::diamond
+                                                     : name_of(s.mode))));
+  constexpr float kRoom = 114;  // [points]
+  strip.title(shortened(ui, s.tool, kRoom * strip.unit()));
+  if (!fits(ui, s.tool, kRoom * strip.unit())) tip_over(strip, 132 * strip.unit(), s.tool);
+  ui.write(strip.x(), strip.y() + 24 * strip.unit(), Letter::large, ink::kText, value);
+  ui.write(strip.x() + ui.width_of(Letter::large, value) + 6 * strip.unit(),
+           strip.y() + 33 * strip.unit(), Letter::small, ink::kDim,
+           fmt::format("mm  {}", word(name_of(s.mode))));
+  strip.next(132);
+}
+
 }  // namespace
 
 void line_above(const Ui& ui, float& y, const std::string& text, bool warns, float column) {
@@ -286,12 +311,8 @@ void draw_hud(Ui& ui, const HudState& s) {
   Strip strip(ui, x, y);
   force_cell(ui, strip, s);
   press_cell(ui, strip, s);
-  strip.cell(176, Word::speed, thousands(std::abs(s.speed) * 60 / (2 * std::numbers::pi)),
-             fmt::format("rpm  {}", say(Word::load, 100 * s.load)));
-  strip.cell(
-      132, Word::burr, fmt::format("{:g}", std::round(1e5 * s.burr_diameter) / 100),
-      fmt::format("mm  {}", word(s.diamond && s.mode == tick::ToolMode::cut ? Word::diamond
-                                                                            : name_of(s.mode))));
+  speed_cell(strip, s);
+  tool_cell(ui, strip, s);
   strip.cell(124, Word::removed, fmt::format("{:.1f}", 1e9 * s.removed), "mm³");
   if (near && !s.nearest) {
     strip.cell(160, Word::nearest_far, "> 20", "mm");

@@ -44,14 +44,19 @@ math::Quat view_of_hand(const render::Camera& camera) {
 
 Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared,
                          Progress& progress) {
-  auto chosen = settings_of(options, true);
+  WorkOptions with_burr = options;
+  with_burr.tool = {};
+  auto chosen = settings_of(with_burr, true);
   if (!chosen) return chosen.error();
   sim::SessionSettings& settings = *chosen;
+  auto rack = offer_rack(options.tool, prepared.bone->grid().voxel, settings.servo);
+  if (!rack) return rack.error();
   // the hand starts 20 mm above the work
   math::Pose above;
   above.p = prepared.place.at - 20e-3 * prepared.place.into;
   above.q = math::shortest_rotation(Vec3::UnitZ(), -prepared.place.into);
   Ready ready;
+  ready.rack = std::move(*rack);
   ready.scene.camera = render::view_of_work(prepared.place.at, -prepared.place.into,
                                             2 * view_height(settings.servo.burr.radius));
   std::unique_ptr<device::Device> hand;

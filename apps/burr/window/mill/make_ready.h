@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "burr/render/scene.h"
 #include "burr/scenario/lesson.h"
+#include "burr/scenario/rack.h"
 #include "burr/surface/worker.h"
 #include "burr/workshop/allowed.h"
 #include "burr/workshop/arm_publisher.h"
@@ -42,6 +44,7 @@ struct Ready {
   record::Mode mode = record::Mode::free;
   workshop::Allowed allowed;
   Earlier earlier;
+  std::vector<scenario::RackTool> rack;  // in the order of the session's list of tools
   std::unique_ptr<const workshop::SparedDistance> spared_distance;  // distances to `spared`
 };
 // Axes of a hand as the user sees the bone: x right, y up, z towards the user. Returns

@@ -13,7 +13,7 @@
 
 namespace burr::app {
 
-enum class Menu { views, all };
+enum class Menu { views, all, rack };
 
 struct MenuItem {
   std::string name, key;

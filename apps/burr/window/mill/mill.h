@@ -4,7 +4,7 @@
 // Its parts: window.cpp (the loop of pictures), mill_hand.cpp (the mouse as a hand, and what each
 // button does), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
 // mill_status.cpp (what the user reads), mill_diary.cpp (what the recording keeps), mill_names.cpp
-// (the names of structures), mill_steps.cpp (the steps of the case, and what the mode of the session allows). Parts with a state of their own
+// (the names of structures), mill_tools.cpp (the rack), mill_steps.cpp (the steps of the case, and what the mode of the session allows). Parts with a state of their own
 // are classes: Drill, Press, Pointer, OverPages, WornHeadset, TickWatch, SuctionTube, Steps,
 // Technique, StepLight. Only these files include this header.
 //
@@ -27,6 +27,7 @@
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/tool_looks.h"
+#include "window/hands/grip.h"
 #include "window/hands/mouse_aim.h"
 #include "window/hands/mouse_hand.h"
 #include "window/mill/drill.h"
@@ -51,6 +52,7 @@
 #include "window/mill/suction_tube.h"
 #include "window/mill/technique.h"
 #include "window/mill/tick_watch.h"
+#include "window/mill/tool_rack.h"
 #include "window/mill/toolbar.h"
 #include "window/mill/views.h"
 #include "window/mill/window_options.h"
@@ -81,7 +83,10 @@ class Mill {
         aim_(session.bone().grid().voxel),
         mirror_(session.bone().grid()),
         drill_(session, scene.burr),
+        rack_(options.rack),
         looks_(session.settings().servo.tools) {
+    grip_.take(rack_.tool(drill_.tool()));
+    aim_.hold(&grip_);
     if (options_.lesson) steps_ = Steps(options_.lesson->steps);
     take_titles_of(options_.lesson ? &*options_.lesson : nullptr);
   }
@@ -197,6 +202,16 @@ class Mill {
   void pad_button(Uint8 button);
   void pedal_button(const SDL_Event& event);
 
+  // ---- mill_tools.cpp
+  void take_tool(int place);
+  void next_tool(int by);
+  void roll_tool(double steps);
+  void lean_tool(double steps);
+  [[nodiscard]] bool holds_by_mouse() const;
+  void draw_rack_pictures();
+  void draw_rack_panel();
+  [[nodiscard]] std::optional<HudState::Nearest> nearest_spared() const;
+
   // ---- mill_diary.cpp
   void keep_diary();
   void declare_done();  // asks, if that ends the session; otherwise declares it or takes it back
@@ -295,6 +310,7 @@ class Mill {
   Clock::time_point sucked_{};
   std::optional<math::Vec3> through_;  // the slices, where bone was last
   int picture_step_ = 0;
+  int renewed_ = 0;  // the window, so far: its textures are new
   Clock::time_point window_drawn_{};
 
   // the hand
@@ -317,6 +333,8 @@ class Mill {
   Measuring measuring_;
   MirrorMode mirror_;
   Drill drill_;
+  ToolRack rack_;
+  Grip grip_;
   workshop::ToolLooks looks_;  // of tools other than the round burr
   render::HeldTool held_;      // how a tool without an orientation of its own is drawn
   Clock::time_point held_at_{};

@@ -189,6 +189,8 @@ void Mill::act(Action action) {
       return toggle_menu(Menu::views);
     case Action::menu:
       return toggle_menu(Menu::all);
+    case Action::rack:
+      return toggle_menu(Menu::rack);
     case Action::structures:
       return show_structures();
     case Action::task:
@@ -235,7 +237,8 @@ void Mill::suck(workshop::LiveSurface& live) {
   const double seconds =
       std::chrono::duration<double>(Clock::now() - std::exchange(sucked_, Clock::now())).count();
   if (suction_ && desk_.settings.effects)
-    live.suck(scene_.burr.world_from_tool.p, scene_.burr.radius + kBeside,
+    live.suck(scene_.burr.world_from_tool.p,
+              (grip_.burr() ? scene_.burr.radius : grip_.reach()) + kBeside,
               std::min(seconds, kMost));
 }
 
@@ -310,6 +313,10 @@ void Mill::wheel(const SDL_MouseWheelEvent& wheel) {
       wheel.preciseY != 0 ? static_cast<double>(wheel.preciseY) : static_cast<double>(wheel.y);
   const SDL_Keymod held = SDL_GetModState();
   const bool ctrl = (held & KMOD_CTRL) != 0;
+  if ((held & KMOD_ALT) != 0) {
+    if (by != 0 && (held & KMOD_SHIFT) != 0) return lean_tool(by > 0 ? 1 : -1);
+    if (by != 0) return roll_tool(by > 0 ? 1 : -1);
+  }
   if ((held & KMOD_SHIFT) != 0 && !ctrl) {
     if (by != 0) note(drill_.change_burr(by > 0 ? 1 : -1));
   } else if (plane_.on() != ctrl) {

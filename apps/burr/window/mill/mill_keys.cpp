@@ -191,6 +191,17 @@ Mill::KeyRows Mill::tool_keys() {
         act_key(SDLK_PAGEDOWN, Action::smaller), act_key(SDLK_PAGEUP, Action::larger)}},
       {HelpBlock::tools, word(Word::key_shift_wheel), Word::help_sizes, {}},
       {HelpBlock::tools,
+       "7  8",
+       Word::help_rack,
+       {act_key(SDLK_7, Action::rack),
+        item_key(
+            SDLK_8, [](Mill& m) { m.roll_tool(-1); }, word(Word::menu_roll_back), KMOD_SHIFT),
+        item_key(
+            SDLK_8, [](Mill& m) { m.lean_tool(m.grip_.leaned() > 1.56 ? -6 : 1); },
+            word(Word::menu_lean), KMOD_CTRL),
+        item_key(
+            SDLK_8, [](Mill& m) { m.roll_tool(1); }, word(Word::menu_roll))}},
+      {HelpBlock::tools,
        ",  .",
        Word::help_speeds,
        {act_key(SDLK_COMMA, Action::slower), act_key(SDLK_PERIOD, Action::faster)}},
@@ -329,6 +340,7 @@ std::vector<KeyReach> key_reaches() {
 // The items of the menu are those keys of the table that have no button.
 void Mill::draw_menu_panel() {
   if (!menu_) return;
+  if (*menu_ == Menu::rack) return draw_rack_panel();
   std::vector<MenuItem> items;
   std::vector<std::function<void(Mill&)>> does;
   for (const KeyRow& row : key_rows(desk_.settings.left_handed))

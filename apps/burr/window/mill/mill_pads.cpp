@@ -22,7 +22,7 @@ constexpr double kLongest = 0.1;     // a longer picture does not move the point
 PedalMap map_of(const Settings& settings) {
   const auto number = [](double value) { return static_cast<int>(std::lround(value)); };
   return {number(settings.pedal_mill), number(settings.pedal_burr), number(settings.pedal_coolant),
-          number(settings.pedal_clutch), number(settings.pedal_rest)};
+          number(settings.pedal_clutch), number(settings.pedal_rest), number(settings.pedal_tool)};
 }
 
 }  // namespace
@@ -111,9 +111,9 @@ void Mill::pad_button(Uint8 button) {
     case SDL_CONTROLLER_BUTTON_Y:
       return act(pad_lifts_ ? Action::measure : Action::redo);
     case SDL_CONTROLLER_BUTTON_LEFTSHOULDER:
-      return act(Action::smaller);
+      return pad_lifts_ ? next_tool(-1) : act(Action::smaller);
     case SDL_CONTROLLER_BUTTON_RIGHTSHOULDER:
-      return act(Action::larger);
+      return pad_lifts_ ? next_tool(1) : act(Action::larger);
     case SDL_CONTROLLER_BUTTON_DPAD_UP:
       return push(kDeeper);
     case SDL_CONTROLLER_BUTTON_DPAD_DOWN:
@@ -137,6 +137,8 @@ void Mill::pedal_button(const SDL_Event& event) {
   switch (desk_.pedals.step(event, map_of(desk_.settings))) {
     case Pedals::Step::burr:
       return note(drill_.next_burr());
+    case Pedals::Step::tool:
+      return next_tool(1);
     case Pedals::Step::coolant:
       return note(drill_.toggle_coolant());
     case Pedals::Step::none:

@@ -68,10 +68,7 @@ void Mill::look_at_session() {
   note(drill_.look());
   show_mirror(scene_, session_.bone().grid(), mirror_.now());
   plane_.show(scene_);
-  nearest_.reset();
-  if (options_.spared_distance != nullptr)
-    if (auto near = options_.spared_distance->nearest(scene_.burr.world_from_tool.p))
-      nearest_ = {std::move(near->name), near->distance - scene_.burr.radius};
+  nearest_ = nearest_spared();
   tick::FaultReport fault;
   // the force of a haptic device was released. A late mouse is no news: it pushes nobody
   if (session_.fault(fault) && hands_.real != nullptr) {
@@ -98,6 +95,7 @@ void Mill::draw_tool() {
     return;
   }
   const math::Pose hand = {row_.contact.proxy, row_.hand.world_from_tool.q};
+  scene_.burr.other = nullptr;
   scene_.burr.world_from_tool =
       own ? hand : held_.at(scene_, hand.p, desk_.settings.left_handed, seconds);
   if (row_.spindle_rad_s > 0)
@@ -185,6 +183,12 @@ HudState Mill::hud() const {
   if (settings.servo.motor.torque > 0)
     s.load = std::clamp(row_.cutting_nm / settings.servo.motor.torque, 0.0, 1.0);
   s.burr_diameter = 2 * scene_.burr.radius;
+  if (const scenario::RackTool* tool = rack_.tool(row_.tool.number); tool != nullptr) {
+    s.tool = rack_.title(row_.tool.number);
+    s.burr_diameter = scenario::cutting_width(*tool);
+    s.turns = tool->cutter.drive == tool::Drive::turning;
+    s.motor = tool::full_speed(tool->cutter) > 0;
+  }
   s.mode = drill_.mode();
   s.diamond = scene_.burr.diamond;
   s.removed = options_.earlier.removed + row_.ledger.removed - row_.ledger.undone;
@@ -224,6 +228,7 @@ ToolbarState Mill::bar_state() const {
   state.suction = suction_;
   state.views = menu_ == Menu::views;
   state.menu = menu_ == Menu::all;
+  state.rack = menu_ == Menu::rack;
   state.structures = leaf_ == Leaf::structures;
   state.task = leaf_ == Leaf::task || leaf_ == Leaf::steps;
   state.sound = options_.loudspeaker != nullptr && options_.loudspeaker->is_on();

@@ -46,6 +46,7 @@ bool Mill::allows(Action action) const {
     case Action::picture:
     case Action::sound:
     case Action::menu:
+    case Action::rack:
       return true;
     case Action::see_through:
       return options_.allowed.see_through;
@@ -132,6 +133,7 @@ void Mill::look_at_technique() {
   now.force = row_.contact.force.norm();
   if (nearest_) now.nearest = nearest_->distance;
   now.diameter = 2 * scene_.burr.radius;
+  if (const scenario::RackTool* tool = rack_.tool(row_.tool.number)) now.tool = tool->name;
   now.kind = scene_.burr.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
   cue_ = technique_.look(now, steps_.now());
   if (technique_.fresh() && options_.diary != nullptr)

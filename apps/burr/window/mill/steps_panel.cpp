@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/scenario/rack.h"
 #include "window/mill/hud.h"
 #include "window/mill/side_panel.h"
 #include "window/shell/anatomy.h"
@@ -91,6 +92,8 @@ std::optional<std::size_t> rows(Ui& ui, const Steps& steps, float x, float y, st
 }  // namespace
 
 std::string suits(const scenario::Step& step) {
+  if (const scenario::RackTool* tool = scenario::built_in_rack().find(step.tool); tool != nullptr)
+    return tool->title.in(spoken().code);
   std::string text;
   if (step.kind)
     text = word(*step.kind == tool::BurrKind::diamond ? Word::steps_diamond : Word::steps_cutting);

@@ -10,6 +10,9 @@ Technique::Cue left_band(const Technique::Moment& now, const scenario::Step* ste
   using Cue = Technique::Cue;
   if (now.force > Technique::kForce) return Cue::gentler;
   if (step == nullptr) return Cue::none;
+  if (now.tool != step->tool && (!step->tool.empty() || step->kind || step->diameter))
+    return Cue::kind;
+  if (!step->tool.empty()) return Cue::none;
   if (step->kind && *step->kind != now.kind) return Cue::kind;
   if (step->diameter && now.diameter < step->diameter->first - kSame) return Cue::larger;
   if (step->diameter && now.diameter > step->diameter->second + kSame) return Cue::smaller;

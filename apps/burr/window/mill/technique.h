@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "burr/scenario/lesson.h"
 #include "burr/tool/burr_tool.h"
@@ -30,6 +31,7 @@ class Technique {
     double nearest = std::numeric_limits<double>::infinity();  // to what must be spared [m]
     double diameter = 0;                                       // of the burr [m]
     tool::BurrKind kind = tool::BurrKind::cutting;
+    std::string tool;  // of the rack; empty: the round burr
   };
 
   // step: the current one; nullptr: none. Returns what is to be read now; fresh() is true in the

@@ -190,6 +190,16 @@ void operation_icon(const Pen& pen, Action action) {
       pen.draw.AddConvexPolyFilled(corners, 4, pen.shade);
       break;
     }
+    case Action::rack: {  // three tools beside each other
+      const float top[] = {-0.2F, -0.9F, 0.1F};
+      for (int n = 0; n < 3; ++n) {
+        const float x = c.x + 0.75F * static_cast<float>(n - 1) * r;
+        pen.draw.AddLine({x, c.y - r}, {x, c.y + 0.9F * r}, pen.shade, 0.6F * pen.thick);
+        pen.draw.AddRectFilled({x - 0.24F * r, c.y + top[n] * r}, {x + 0.24F * r, c.y + r},
+                               pen.shade, 0.15F * r);
+      }
+      break;
+    }
     case Action::coolant:  // a drop
       pen.draw.AddCircleFilled({c.x, c.y + 0.35F * r}, 0.6F * r, pen.shade, 20);
       pen.draw.AddTriangleFilled({c.x, c.y - r}, {c.x + 0.55F * r, c.y + 0.15F * r},
@@ -300,11 +310,11 @@ class Bar {
 
   // the icon above its name
   void tall(const Button& b, bool chosen = false) {
-    const ImVec2 p = ImGui::GetCursorScreenPos(), size = {66 * u_, 42 * u_};
+    const ImVec2 p = ImGui::GetCursorScreenPos(), size = {66 * u_, 34 * u_};
     body(b, p, size, chosen);
     const ImU32 shade = chosen ? ink::kAccent : ink::kText;
-    icon(*ImGui::GetWindowDrawList(), b.action, {p.x + size.x / 2, p.y + 14 * u_}, 9 * u_, shade);
-    ui_.write(p.x + size.x / 2, p.y + 26 * u_, Ui::Letter::small, chosen ? ink::kText : ink::kDim,
+    icon(*ImGui::GetWindowDrawList(), b.action, {p.x + size.x / 2, p.y + 11 * u_}, 8 * u_, shade);
+    ui_.write(p.x + size.x / 2, p.y + 19 * u_, Ui::Letter::small, chosen ? ink::kText : ink::kDim,
               word(b.name), 0.5F);
   }
 
@@ -375,6 +385,7 @@ struct Line {
 std::vector<Line> lines() {
   return {
       {{}, {Action::cut, Word::cut, "1"}, {}},
+      {{}, {Action::rack, Word::rack, "7"}, {}},
       {Word::burr,
        {Action::smaller, Word::smaller, smaller_key()},
        Button{Action::larger, Word::larger, larger_key()}},
@@ -443,6 +454,8 @@ bool is_on(const ToolbarState& state, Action action) {
       return state.sound;
     case Action::menu:
       return state.menu;
+    case Action::rack:
+      return state.rack;
     default:
       return false;
   }
@@ -462,7 +475,7 @@ std::vector<Action> toolbar_actions() {
 std::optional<Action> draw_toolbar(Ui& ui, const ToolbarState& state) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 624 * u, w = 82 * u;
+  const float h = 645 * u, w = 82 * u;
   const float free = ui.height() - 78 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});

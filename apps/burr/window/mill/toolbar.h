@@ -42,6 +42,7 @@ enum class Action {
   task,        // the text of the case, its steps
   picture,
   sound,  // on, off
+  rack,   // the tools, open or not
   menu,   // everything that has no button of its own
 };
 
@@ -50,7 +51,7 @@ struct ToolbarState {
   tick::ToolMode mode = tick::ToolMode::cut;
   bool measures = false, mirrors = false, diamond = false, coolant = false, slices = false,
        see_through = false, suction = false, views = false, structures = false, task = false,
-       sound = false, menu = false;
+       sound = false, menu = false, rack = false;
 };
 
 // All actions that have a button.

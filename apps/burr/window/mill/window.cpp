@@ -111,6 +111,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   slices_->update(scene_, slices_through(), slices_shown_ && panels_, labels_,
                   desk_.renderer().width(), desk_.renderer().height(),
                   static_cast<int>(hud_height(desk_.ui())));
+  draw_rack_pictures();
   live.update(headset_.cameras());
   const Clock::time_point drawing = Clock::now();
   Status shown = fine();

@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "burr/record/diary.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/lesson.h"
+#include "burr/scenario/rack.h"
 #include "burr/volume/greys.h"
 #include "burr/workshop/allowed.h"
 #include "burr/workshop/spared_distance.h"
@@ -22,6 +24,7 @@ namespace burr::app {
 struct WindowOptions {
   std::string title = {};       // of the work, on the window's frame; empty: burr
   Earlier earlier = {};         // counted with this session's time and volume
+  std::vector<scenario::RackTool> rack = {};  // in the order of the session's list of tools
   double seconds = 0;           // closes after this time; 0: when the user closes it
   std::string folder = {};      // for pictures of the key P; empty: the start folder
   std::string screenshot = {};  // PNG of the last picture with panels; empty: none

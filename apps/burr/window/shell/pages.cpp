@@ -60,6 +60,7 @@ Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& wi
   with.title = title_of(ready);
   with.earlier = ready.earlier;
   with.greys = ready.greys;
+  with.rack = ready.rack;
   with.work_case = ready.work_case;
   with.lesson = ready.lesson;
   with.mode = ready.mode;

@@ -60,6 +60,8 @@ constexpr std::array kFields = {
           nullptr, 0, 31},
     Field{"pedal_coolant", "button of a pedal for coolant on and off", &Settings::pedal_coolant,
           nullptr, nullptr, 0, 31},
+    Field{"pedal_tool", "button of a pedal for the next tool", &Settings::pedal_tool, nullptr,
+          nullptr, 0, 31},
     Field{"pedal_clutch", "button of a pedal that lifts a haptic device while it is down",
           &Settings::pedal_clutch, nullptr, nullptr, 0, 31},
     Field{"pedal_rest", "where a pedal's axis is with no foot on it: -1, 0 in the middle, or 1",

@@ -33,6 +33,7 @@ struct Settings {
   double pedal_mill = 0;        // numbers of a pedal's buttons, from 0
   double pedal_burr = 1;
   double pedal_coolant = 2;
+  double pedal_tool = 4;
   double pedal_clutch = 3;  // lifts a haptic device while it is down
   double pedal_rest = -1;   // value of its axis with no foot on it
   bool effects = true;      // freshly cut bone and wet bone look so for a while

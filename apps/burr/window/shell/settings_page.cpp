@@ -161,6 +161,7 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings, DeviceLeaf* device
   right.number(Word::set_pedal_mill, "pedal_mill", settings.pedal_mill, "%.0f");
   right.number(Word::set_pedal_burr, "pedal_burr", settings.pedal_burr, "%.0f");
   right.number(Word::set_pedal_coolant, "pedal_coolant", settings.pedal_coolant, "%.0f");
+  right.number(Word::set_pedal_tool, "pedal_tool", settings.pedal_tool, "%.0f");
   right.number(Word::set_pedal_clutch, "pedal_clutch", settings.pedal_clutch, "%.0f");
   right.number(Word::set_pedal_rest, "pedal_rest", settings.pedal_rest, "%.0f");
 }

@@ -16,6 +16,7 @@
 #include "burr/base/toml_text.h"
 #include "burr/record/player.h"
 #include "burr/record/rename_and_sync.h"
+#include "burr/scenario/rack.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/recording.h"
 #include "commands/work.h"
@@ -187,10 +188,15 @@ void go_on(record::Player& player, const KeptSession& kept, WorkOptions& options
   const tool::ToolState& tool = last->tool;
   if (tool.radius <= 0) return;  // not known
   options.burr_mm = 2e3 * tool.radius;
-  options.rpm = tool.full_speed * 60 / (2 * std::numbers::pi);
   options.kind = tool.kind;
   options.mode = tool.mode;
   options.irrigated = tool.irrigated;
+  const std::vector<tool::ShapedTool>& tools = player.info().tools;
+  options.tool.tool.clear();  // a tool that the rack no longer has gives way to the round burr
+  if (tool.number < 0) options.rpm = tool.full_speed * 60 / (2 * std::numbers::pi);
+  if (tool.number < 0 || tool.number >= static_cast<int>(tools.size())) return;
+  const std::string& name = tools[static_cast<std::size_t>(tool.number)].name;
+  if (scenario::built_in_rack().find(name) != nullptr) options.tool.tool = name;
 }
 
 }  // namespace
