@@ -33,6 +33,7 @@ const Kind kKinds[] = {
      // Steiner: core, its area times the rounding, half of its edges, the ball
      M_PI * 24 + 0.5 * (2 * M_PI * 4 + 4 * M_PI * 6) + 0.25 * (M_PI * M_PI * 2 + M_PI * 6) +
          4.0 / 3 * M_PI * 0.125},
+    {"tube", {ShapeKind::tube, 2 * kMm, 1.4 * kMm, 3 * kMm, 0}, M_PI * (4 - 1.96) * 6},
     {"box", {ShapeKind::box, 1 * kMm, 2 * kMm, 3 * kMm, 0}, 48},
     {"wedge", {ShapeKind::wedge, 1 * kMm, 2 * kMm, 6 * kMm, 0}, 24},
 };
@@ -79,6 +80,10 @@ TEST(ToolMesh, IsTheSurfaceOfItsDistance) {
   }
   SCOPED_TRACE("vesica");
   expect_on_surface({ShapeKind::vesica, 1.5 * kMm, 0, 5 * kMm, 0.1 * kMm}, 1e-3);
+  {
+    SCOPED_TRACE("rounded tube");
+    expect_on_surface({ShapeKind::tube, 2 * kMm, 1.4 * kMm, 3 * kMm, 0.2 * kMm}, 1e-3);
+  }
   SCOPED_TRACE("half shell");
   expect_on_surface({ShapeKind::half_shell, 2 * kMm, 0.4 * kMm, 0, 0.2 * kMm}, 1e-3);
 }

@@ -14,7 +14,7 @@ using math::Vec3;
 
 TEST(Rack, BringsEveryKindOfTool) {
   const Rack& rack = built_in_rack();
-  for (const char* name : {"fissure-bur", "lindemann", "flame", "cone", "wheel", "twist-drill",
+  for (const char* name : {"fissure-bur", "lindemann", "flame", "cone", "wheel", "twist-drill", "trephine",
                            "sagittal-saw", "reciprocating-saw", "osteotome", "curette"})
     EXPECT_NE(rack.find(name), nullptr) << name;
   for (const RackTool& tool : rack.all) {

@@ -122,6 +122,19 @@ std::vector<Body> make_bodies() {
     }
     all.push_back(body);
   }
+  {
+    const double a = 2, b = 1.2, c = 1.5;
+    Body body{"tube", {ShapeKind::tube, a, b, c, 0.1}, true, {}, {}};
+    line(body.points, {b, 0, -c}, {a, 0, -c});
+    line(body.points, {a, 0, -c}, {a, 0, c});
+    line(body.points, {a, 0, c}, {b, 0, c});
+    line(body.points, {b, 0, c}, {b, 0, -c});
+    body.holds = [=](const Vec3& p) {
+      const double r = std::hypot(p.x(), p.y());
+      return r >= b && r <= a && std::abs(p.z()) <= c;
+    };
+    all.push_back(body);
+  }
   all.push_back(box_body());
   all.push_back(wedge_body());
   return all;

@@ -428,7 +428,7 @@ constexpr const char* kSessionSchema = R"({
    "items": {"type": "object", "properties": {
     "name": {"type": "string"},
     "parts": {"type": "array", "items": {"type": "object", "properties": {
-     "shape": {"enum": ["ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell"]},
+     "shape": {"enum": ["ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell", "tube"]},
      "sizes_m": {"type": "array", "items": {"type": "number"}, "description": "a, b, c and the rounding"},
      "at_m": {"type": "array", "items": {"type": "number"}},
      "turn_xyzw": {"type": "array", "items": {"type": "number"}, "description": "tool_from_part"},

@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, tool::kShapeKinds> kShapes = {
-    "ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell"};
+    "ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell", "tube"};
 constexpr std::array<std::string_view, 3> kRoles = {"cuts", "rubs", "seen"};
 constexpr std::array<std::string_view, 5> kDrives = {"turning", "oscillating", "reciprocating",
                                                      "pushed", "struck"};

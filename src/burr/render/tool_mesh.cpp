@@ -81,6 +81,20 @@ Profile half_shell(const Shape& s) {
   return profile;
 }
 
+// Around the wall of a tube, from the middle of its inner side on.
+Profile tube(const Shape& s) {
+  const double corners[][2] = {{s.b, -s.c}, {s.a, -s.c}, {s.a, s.c}, {s.b, s.c}};
+  Profile profile;
+  double last = -kPi;  // direction of the normal before the corner: to the axis
+  profile.push_back({s.b - s.rounding, 0, -1, 0});
+  for (const auto& [r, z] : corners) {
+    add_arc(profile, r, z, s.rounding, last, last + kPi / 2);
+    last += kPi / 2;
+  }
+  profile.push_back({s.b - s.rounding, 0, -1, 0});
+  return profile;
+}
+
 Profile profile_of(const Shape& s) {
   switch (s.kind) {
     case ShapeKind::capsule:
@@ -93,6 +107,8 @@ Profile profile_of(const Shape& s) {
       return vesica(s);
     case ShapeKind::half_shell:
       return half_shell(s);
+    case ShapeKind::tube:
+      return tube(s);
     case ShapeKind::ball:
     case ShapeKind::box:
     case ShapeKind::wedge:

@@ -32,7 +32,8 @@ constexpr double kMm = 1e-3;
 // The sizes of a part as a person gives them.
 struct Sizes {
   double diameter_mm = 0, behind_mm = -1, length_mm = 0, edge_mm = 0, width_mm = 0,
-         half_angle_deg = 0, height_mm = -1;
+         half_angle_deg = 0, height_mm = -1,
+         inner_mm = 0;
   std::optional<Vec3> size_mm;
   std::optional<double> from_mm, to_mm;
 };
@@ -44,7 +45,7 @@ void read_optional(Reader& reader, std::string_view key, std::optional<double>& 
   out = value;
 }
 
-// A cylinder or a frustum: the outer sizes less the rounding of the edge.
+// A cylinder, a frustum or a tube: the outer sizes less the rounding of the edge.
 tool::Shape round_shape(ShapeKind kind, const Sizes& in) {
   const double edge = kMm * in.edge_mm;
   tool::Shape shape;
@@ -53,6 +54,7 @@ tool::Shape round_shape(ShapeKind kind, const Sizes& in) {
   shape.a = 0.5 * kMm * in.diameter_mm - edge;
   shape.c = 0.5 * kMm * in.length_mm - edge;
   if (kind == ShapeKind::frustum) shape.b = 0.5 * kMm * in.behind_mm - edge;
+  if (kind == ShapeKind::tube) shape.b = 0.5 * kMm * in.inner_mm + edge;
   return shape;
 }
 
@@ -83,6 +85,9 @@ const struct {
     {"flame", ShapeKind::vesica, {"diameter_mm", "length_mm", "edge_mm"}},
     {"box", ShapeKind::box, {"size_mm", "edge_mm"}},
     {"wedge", ShapeKind::wedge, {"half_angle_deg", "width_mm", "length_mm", "edge_mm"}},
+    {"tube",
+     ShapeKind::tube,
+     {"diameter_mm", "inner_mm", "length_mm", "edge_mm", "from_mm", "to_mm"}},
     {"half shell", ShapeKind::half_shell, {"diameter_mm", "height_mm", "edge_mm"}},
 };
 
@@ -116,11 +121,13 @@ void read_sizes(Reader& reader, ShapeKind kind, Sizes& in) {
   if (kind == ShapeKind::capsule && !along)
     return reader.fail("from_mm", "is missing; give the ends of the axis, from_mm and to_mm");
   const bool has_length = kind == ShapeKind::cylinder || kind == ShapeKind::frustum ||
-                          kind == ShapeKind::vesica || kind == ShapeKind::wedge;
+                          kind == ShapeKind::vesica || kind == ShapeKind::wedge ||
+                          kind == ShapeKind::tube;
   if (has_length && !along) size("length_mm", in.length_mm, true);
   if (along && reader.has("length_mm"))
     return reader.fail("length_mm", "is given twice; leave it out where from_mm and to_mm are");
   if (kind == ShapeKind::frustum) size("diameter_behind_mm", in.behind_mm, true);
+  if (kind == ShapeKind::tube) size("inner_mm", in.inner_mm, true);
   if (kind == ShapeKind::wedge) {
     size("width_mm", in.width_mm, true);
     reader.number("half_angle_deg", in.half_angle_deg, 0, 60, true);
@@ -142,6 +149,7 @@ tool::Shape shape_of(ShapeKind kind, const Sizes& in) {
       return {kind, 0, 0, 0.5 * kMm * in.length_mm, 0.5 * kMm * in.diameter_mm};
     case ShapeKind::cylinder:
     case ShapeKind::frustum:
+    case ShapeKind::tube:
       return round_shape(kind, in);
     case ShapeKind::vesica:
       return {kind, 0.5 * kMm * in.diameter_mm - edge, 0, 0.5 * kMm * in.length_mm - edge, edge};
@@ -175,8 +183,8 @@ void read_part(Reader& reader, tool::Tool& out) {
   if (in.from_mm) part.tool_from_part.p.z() += 0.5 * kMm * (*in.from_mm + *in.to_mm);
   if (!tool::is_body(part.shape))
     return reader.fail("shape",
-                       "has no body: edge_mm must be less than half of each size, and a "
-                       "flame longer than it is wide");
+                       "has no body: edge_mm must be less than half of each size, a flame longer "
+                       "than it is wide, and a tube's inner_mm less than its diameter_mm");
   if (!tool::add_part(out, part))
     reader.fail("shape",
                 fmt::format("is one part too many; a tool has at most {}", tool::Tool::kMostParts));

@@ -34,6 +34,7 @@ double core_support(const Shape& s, const Vec3& way) BURR_RT {
     case ShapeKind::capsule:
       return s.c * std::abs(az);
     case ShapeKind::cylinder:
+    case ShapeKind::tube:
       return s.a * ar + s.c * std::abs(az);
     case ShapeKind::frustum:
       return std::max(s.a * ar - s.c * az, s.b * ar + s.c * az);
@@ -76,7 +77,9 @@ BoundingBall bounding_ball(const Shape& shape) BURR_RT {
   return {0.5 * (box.hi + box.lo), math::norm(half) + shape.rounding};
 }
 
-bool convex(ShapeKind kind) BURR_RT { return kind != ShapeKind::half_shell; }
+bool convex(ShapeKind kind) BURR_RT { 
+  return kind != ShapeKind::half_shell && kind != ShapeKind::tube;
+}
 
 Shape scaled(const Shape& s, double factor) BURR_RT {
   return {s.kind, s.a * factor, s.b * factor, s.c * factor, s.rounding * factor};
@@ -102,6 +105,8 @@ bool is_body(const Shape& s) BURR_RT {
       return s.a > 0 && s.b >= 0 && s.c > 0;
     case ShapeKind::half_shell:
       return std::abs(s.b) < s.a && s.rounding > 0;
+    case ShapeKind::tube:
+      return s.b > s.rounding && s.b <= s.a && s.c + s.rounding > 0 && s.a - s.b + s.rounding > 0;
   }
   return false;
 }

@@ -187,6 +187,18 @@ template <class M>
   out.z = above ? edge.z : middle.z * way;
 }
 
+// The rectangle of a tube's wall, on one side of the axis.
+template <class M>
+[[maybe_unused]] void tube(const Sizes<Size<M>>& s, const Num<M>& r, const Num<M>& z,
+                           Profile<M>& out) noexcept {
+  const Size<M> half = static_cast<Size<M>>(0.5);
+  const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
+  const Num<M> from_middle = r - half * (s.a + s.b);
+  const Num<M> side = from_middle < zero ? -one : one;
+  rectangle<M>(half * (s.a - s.b), s.c, from_middle * side, z, out);
+  out.r = out.r * side;
+}
+
 // ---- the shapes
 
 // A box or a wedge: a profile across y, extruded to |y| <= half.
@@ -249,6 +261,7 @@ template <class M>
   if (kind == ShapeKind::vesica) vesica<M>(s, r, z, profile);
   if (kind == ShapeKind::half_shell)
     half_shell<M>(s, std::sqrt((s.a - s.b) * (s.a + s.b)), r, z, profile);
+  if (kind == ShapeKind::tube) tube<M>(s, r, z, profile);
   const auto off_axis = r > kNothing<Size<M>>;
   const Num<M> cosine = off_axis ? x / r : one, sine = off_axis ? y / r : zero;
   out.phi = profile.d - s.rounding;

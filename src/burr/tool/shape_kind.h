@@ -13,8 +13,9 @@ enum class ShapeKind {
   box,         // core: half sizes a, b, c
   wedge,       // core: edge at z = 0 along y, faces to half thickness a at z = c; |y| <= b
   half_shell,  // core: the sphere of radius a up to the height z = b, |b| < a; not convex
+  tube,        // core: the ring between the radii b and a, b <= a, |z| <= c; not convex
 };
-inline constexpr int kShapeKinds = 8;
+inline constexpr int kShapeKinds = 9;
 
 struct Shape {
   ShapeKind kind = ShapeKind::ball;

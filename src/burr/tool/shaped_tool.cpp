@@ -22,6 +22,8 @@ double thickness(const Shape& shape) {
       return 2 * shape.a + round;
     case ShapeKind::box:
       return 2 * std::min({shape.a, shape.b, shape.c}) + round;
+    case ShapeKind::tube:
+      return std::min(shape.a - shape.b, 2 * shape.c) + round;
     case ShapeKind::wedge:
       return 2 * shape.a + round;
   }
