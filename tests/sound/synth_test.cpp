@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <random>
@@ -129,6 +130,54 @@ TEST(Synth, CuttingIsAsLoudAsItsFormulaSays) {
     heard.hardness_j_m3 = hardness;
     const double expected = SynthSettings{}.cutting * std::sqrt(0.5);
     EXPECT_NEAR(test::rms(steady(heard, 4)), expected, 0.06 * expected) << hardness;
+  }
+}
+
+// The power of the noise, in pieces of a twelfth of a stroke.
+TEST(Synth, ASawBitesTwiceAStroke) {
+  constexpr double kStrokes = 200;  // a second: 240 samples each
+  const auto swell = [&](bool strokes) {
+    SoundState heard = milling();
+    heard.spindle_rad_s = 2 * M_PI * kStrokes;
+    heard.cutting_nm = 0;
+    heard.teeth = 0;
+    heard.strokes = strokes;
+    SynthSettings noise_only;
+    noise_only.spindle = noise_only.knock = 0;
+    const std::vector<float> samples = steady(heard, 4, noise_only);
+    std::vector<double> power(12, 0);
+    for (std::size_t n = 0; n < samples.size(); ++n)
+      power[n % 240 / 20] += static_cast<double>(samples[n]) * static_cast<double>(samples[n]);
+    return power;
+  };
+  const std::vector<double> saw = swell(true), burr = swell(false);
+  const auto most = [](const std::vector<double>& of) { return *std::max_element(of.begin(), of.end()); };
+  const auto least = [](const std::vector<double>& of) { return *std::min_element(of.begin(), of.end()); };
+  EXPECT_GT(most(saw), 5 * least(saw));
+  EXPECT_LT(most(burr), 1.5 * least(burr));
+  // twice: half a stroke later it is the same again
+  for (std::size_t n = 0; n < 6; ++n) EXPECT_NEAR(saw[n], saw[n + 6], 0.25 * most(saw)) << n;
+  double sum_saw = 0, sum_burr = 0;
+  for (const double one : saw) sum_saw += one;
+  for (const double one : burr) sum_burr += one;
+  EXPECT_NEAR(sum_saw, sum_burr, 0.1 * sum_burr) << "as loud as a burr that removes as much";
+}
+
+TEST(Synth, EveryBlowKnocks) {
+  SoundState heard;
+  heard.touching = true;
+  Synth synth;
+  synth.update(heard);
+  static_cast<void>(made(synth, 1));
+  for (int blow = 0; blow < 3; ++blow) {
+    heard.struck = true;
+    synth.update(heard);
+    EXPECT_GT(test::largest(made(synth, 0.1)), 0.3 * SynthSettings{}.knock);
+    synth.update(heard);
+    static_cast<void>(made(synth, 0.6));
+    heard.struck = false;
+    synth.update(heard);
+    EXPECT_EQ(test::largest(made(synth, 0.1)), 0) << "one knock a blow";
   }
 }
 

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+
+#include "burr/scenario/rack.h"
 
 namespace burr::workshop {
 namespace {
@@ -85,6 +88,37 @@ TEST(SoundTracker, TellsWhatTheRowTells) {
 
   SoundTracker without(settings);
   EXPECT_EQ(without.update(one).to_spare, std::numeric_limits<double>::infinity());
+}
+
+TEST(SoundTracker, AToolOfTheRackSoundsAsItMoves) {
+  tick::ServoSettings settings;
+  for (const char* name : {"flame", "sagittal-saw", "osteotome"}) {
+    const scenario::RackTool& tool = *scenario::built_in_rack().find(name);
+    settings.tools.push_back({tool.name, tool.tool, tool.cutter});
+  }
+  // a plane to be spared at z = -10 mm
+  SoundTracker tracker(settings, [](const math::Vec3& p) { return p.z() + 10e-3; });
+  tick::TickRow one = row(0, 0, 0);
+  one.tool.number = 0;
+  one.cutting_w = 1;
+  sound::SoundState heard = tracker.update(one);
+  EXPECT_EQ(heard.teeth, 10);
+  EXPECT_FALSE(heard.strokes);
+  EXPECT_FALSE(heard.struck);
+  EXPECT_NEAR(heard.to_spare, 6e-3, 0.1e-3) << "from the tip of the flame";
+  one.hand.world_from_tool.q = Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX());
+  EXPECT_NEAR(tracker.update(one).to_spare, 8.5e-3, 0.2e-3) << "from its belly";
+  one.tool.number = 1;
+  heard = tracker.update(one);
+  EXPECT_TRUE(heard.strokes);
+  EXPECT_EQ(heard.teeth, 0);
+  one.tool.number = 2;
+  EXPECT_TRUE(tracker.update(one).struck);
+  one.cutting_w = 0;
+  EXPECT_FALSE(tracker.update(one).struck);
+  one.tool.number = -1;
+  one.tool.radius = 3e-3;
+  EXPECT_NEAR(tracker.update(one).to_spare, 7e-3, 1e-12);
 }
 
 }  // namespace

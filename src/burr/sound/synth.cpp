@@ -108,6 +108,11 @@ void Synth::update(const SoundState& now) BURR_RT {
     rise_ += 1 - ring_;
     ring_ = 1;
   }
+  if (now.struck && !struck_) {
+    rise_ += 1 - ring_;
+    ring_ = 1;
+  }
+  struck_ = now.struck;
   if (now.touching) untouched_ = 0;
   touching_ = now.touching;
   request(now);
@@ -120,6 +125,7 @@ void Synth::request(const SoundState& now) BURR_RT {
   const double rate = held(now.removal_m3_s, 0, 1, 0);
   removal_.request = std::sqrt(rate / (rate + settings_.half_removal));
   if (rate > 0) tissue_hz_.request = cutting_hz(now.hardness_j_m3);
+  strokes_.request = now.strokes ? 1 : 0;
   coolant_.request = now.irrigated ? 1 : 0;
   teeth_requested_ = static_cast<int>(held(now.teeth, 0, kMostTeeth, 0));
 
@@ -191,7 +197,10 @@ double Synth::cutting() BURR_RT {
   const double loud = removal_.step(usual_);
   if (loud == 0) return 0;
   const double tuned = std::tan(kPi * std::min(hz * dt_, 0.4));
-  return settings_.cutting * loud * gain_of(tuned, kBoneQuality) *
+  const double to_and_fro = strokes_.step(usual_);
+  const double swell =
+      1 + to_and_fro * (std::sqrt(2.0) * std::abs(std::sin(2 * kPi * turn_)) - 1);
+  return settings_.cutting * swell * loud * gain_of(tuned, kBoneQuality) *
          bone_band_.step(white(), tuned, 1 / kBoneQuality);
 }
 

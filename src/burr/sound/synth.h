@@ -2,7 +2,9 @@
 //
 //     spindle   lines at f_r = |w| / 2 pi and its multiples, and at z f_r, the teeth
 //     cutting   white noise --[ band at f_c, Q ]-- times sqrt(q / (q + q_half))
-//     knock     a line at f_c / 3 when the burr comes onto the bone: exp(-t/d) - exp(-t/a)
+//     stroke    of a saw: the noise swells and dies twice a stroke, as the teeth do, by
+//               sqrt(2) |sin 2 pi f_r t|; its power stays
+//     knock     a line at f_c / 3 when the burr comes onto the bone, and at a blow: exp(-t/d) - exp(-t/a)
 //     coolant   white noise --[ band at 6 kHz ]
 //     warning   beeps that come faster the nearer a structure to spare is; a steady tone at the end,
 //               an octave lower while the burr cuts into it
@@ -103,9 +105,9 @@ class Synth {
   std::uint64_t count_ = 0;      // random numbers used so far
 
   // requested values, smoothed
-  Smooth turns_hz_, loaded_, removal_, tissue_hz_, coolant_, loudness_, tooth_, warn_pitch_;
+  Smooth turns_hz_, loaded_, removal_, tissue_hz_, coolant_, loudness_, tooth_, warn_pitch_, strokes_;
   int teeth_ = 0, teeth_requested_ = 8;
-  bool touching_ = false;
+  bool touching_ = false, struck_ = false;
   double untouched_;  // since the last contact [s]
 
   // phases of the oscillators, in turns 0..1

@@ -1,7 +1,11 @@
 #include "burr/workshop/sound_tracker.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
+
+#include "burr/workshop/tool_places.h"
+#include "burr/workshop/work_view.h"
 
 namespace burr::workshop {
 namespace {
@@ -11,15 +15,34 @@ constexpr double kOver = 10e-3;  // shortest time over which removal is averaged
 }  // namespace
 
 SoundTracker::SoundTracker(const tick::ServoSettings& settings, ToSpare to_spare)
-    : teeth_(settings.burr.teeth), rate_hz_(settings.rate_hz), to_spare_(std::move(to_spare)) {}
+    : teeth_(settings.burr.teeth), rate_hz_(settings.rate_hz), to_spare_(std::move(to_spare)) {
+  for (const tool::ShapedTool& tool : settings.tools)
+    tools_.push_back({tool.cutter.teeth, tool.cutter.drive, places_on(tool.tool)});
+}
+
+// From the surface of what cuts.
+double SoundTracker::distance_of(const tick::TickRow& row, const Tool* tool) const {
+  if (tool == nullptr) return to_spare_(row.contact.proxy) - row.tool.radius;
+  const math::Pose pose = pose_of_tool(row);
+  double least = std::numeric_limits<double>::infinity();
+  for (const math::Vec3& place : tool->places) least = std::min(least, to_spare_(pose * place));
+  return least;
+}
 
 const sound::SoundState& SoundTracker::update(const tick::TickRow& row) {
   now_.spindle_rad_s = row.spindle_rad_s;
   now_.cutting_nm = row.cutting_nm;
   now_.touching = row.contact.touching;
+  const Tool* tool = nullptr;
+  if (row.tool.number >= 0 && row.tool.number < static_cast<int>(tools_.size()))
+    tool = &tools_[static_cast<std::size_t>(row.tool.number)];
   now_.teeth = row.tool.kind == tool::BurrKind::diamond ? 0 : teeth_;
+  if (tool != nullptr) now_.teeth = tool->drive == tool::Drive::turning ? tool->teeth : 0;
+  now_.strokes = tool != nullptr && (tool->drive == tool::Drive::oscillating ||
+                                     tool->drive == tool::Drive::reciprocating);
+  now_.struck = tool != nullptr && tool->drive == tool::Drive::struck && row.cutting_w > 0;
   now_.irrigated = row.tool.irrigated;
-  if (to_spare_) now_.to_spare = to_spare_(row.contact.proxy) - row.tool.radius;
+  if (to_spare_) now_.to_spare = distance_of(row, tool);
 
   const Account account = {row.tick, row.ledger.removed, row.ledger.energy};
   if (!before_ || account.tick < before_->tick) before_ = account;  // the first; a jump back

@@ -8,11 +8,13 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "burr/math/vec3.h"
 #include "burr/sound/sound_state.h"
 #include "burr/tick/rows.h"
 #include "burr/tick/servo.h"
+#include "burr/tool/cutter.h"
 
 namespace burr::workshop {
 
@@ -32,7 +34,16 @@ class SoundTracker {
     double removed = 0, energy = 0;
   };
 
+  // A tool that is no round burr.
+  struct Tool {
+    int teeth = 0;
+    tool::Drive drive = tool::Drive::turning;
+    std::vector<math::Vec3> places;  // on its cutting parts, in its frame [m]
+  };
+  [[nodiscard]] double distance_of(const tick::TickRow& row, const Tool* tool) const;
+
   int teeth_ = 0;  // of a cutting burr
+  std::vector<Tool> tools_;
   double rate_hz_;
   ToSpare to_spare_;
   std::optional<Account> before_;

@@ -30,15 +30,19 @@ render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz) {
           row.tool.kind == tool::BurrKind::diamond};
 }
 
-void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact) {
-  scene.burr.visible = true;
-  scene.burr.radius = row.tool.radius;
-  scene.burr.diamond = row.tool.kind == tool::BurrKind::diamond;
+math::Pose pose_of_tool(const tick::TickRow& row) {
   // contact may have turned the tool away from the hand
   const double angle = row.contact.turn.norm();
   const math::Quat turn(angle > 0 ? Eigen::AngleAxisd(angle, math::Vec3(row.contact.turn / angle))
                                   : Eigen::AngleAxisd::Identity());
-  scene.burr.world_from_tool = {row.contact.proxy, turn * row.hand.world_from_tool.q};
+  return {row.contact.proxy, turn * row.hand.world_from_tool.q};
+}
+
+void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact) {
+  scene.burr.visible = true;
+  scene.burr.radius = row.tool.radius;
+  scene.burr.diamond = row.tool.kind == tool::BurrKind::diamond;
+  scene.burr.world_from_tool = pose_of_tool(row);
   if (contact)
     render::show_contact(scene, row.hand.world_from_tool.p, row.contact.proxy, row.contact.force);
 }

@@ -20,6 +20,9 @@ namespace burr::workshop {
 // The part of a row that changes the look of the bone.
 [[nodiscard]] render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz);
 
+// Where the tool of this tick is, and how contact turned it.
+[[nodiscard]] math::Pose pose_of_tool(const tick::TickRow& row);
+
 // Puts the burr of this tick into the scene, with its size and kind; with `contact` also hand,
 // proxy and force.
 void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact);
