@@ -210,7 +210,7 @@ class Mill {
   [[nodiscard]] bool holds_by_mouse() const;
   void draw_rack_pictures();
   void draw_rack_panel();
-  [[nodiscard]] std::optional<HudState::Nearest> nearest_spared() const;
+  [[nodiscard]] std::optional<HudState::Nearest> nearest_spared();
 
   // ---- mill_diary.cpp
   void keep_diary();
@@ -335,6 +335,8 @@ class Mill {
   Drill drill_;
   ToolRack rack_;
   Grip grip_;
+  std::vector<math::Vec3> places_;  // on the cutting parts of the tool `placed_` [m]
+  int placed_ = -1;
   workshop::ToolLooks looks_;  // of tools other than the round burr
   render::HeldTool held_;      // how a tool without an orientation of its own is drawn
   Clock::time_point held_at_{};

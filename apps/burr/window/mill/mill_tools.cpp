@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "burr/workshop/tool_places.h"
 #include "window/mill/mill.h"
 #include "window/mill/rack_panel.h"
 #include "window/shell/words.h"
@@ -82,20 +83,20 @@ void Mill::draw_rack_panel() {
 
 // Of the cutting parts to what must be spared: the round burr is its radius around one place, another
 // tool a set of places on its surface.
-std::optional<HudState::Nearest> Mill::nearest_spared() const {
+std::optional<HudState::Nearest> Mill::nearest_spared() {
   if (options_.spared_distance == nullptr) return std::nullopt;
   const math::Pose& pose = scene_.burr.world_from_tool;
-  const auto& look = scene_.burr.other;
-  if (look == nullptr) {
+  const scenario::RackTool* tool = rack_.tool(row_.tool.number);
+  if (tool == nullptr) {
     auto near = options_.spared_distance->nearest(pose.p);
     if (!near) return std::nullopt;
     return HudState::Nearest{std::move(near->name), near->distance - scene_.burr.radius};
   }
-  constexpr std::size_t kPlaces = 48;
-  const auto& places = look->cuts.vertices;
+  if (std::exchange(placed_, row_.tool.number) != row_.tool.number)
+    places_ = workshop::places_on(tool->tool);
   std::optional<HudState::Nearest> least;
-  for (std::size_t n = 0; n < places.size(); n += std::max<std::size_t>(1, places.size() / kPlaces)) {
-    auto near = options_.spared_distance->nearest(pose * places[n].p.cast<double>());
+  for (const math::Vec3& place : places_) {
+    auto near = options_.spared_distance->nearest(pose * place);
     if (near && (!least || near->distance < least->distance))
       least = {std::move(near->name), near->distance};
   }
