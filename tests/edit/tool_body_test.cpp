@@ -285,10 +285,9 @@ TEST(ToolBody, EveryInstructionSetGivesTheSameBits) {
     rt::force_simd(which);
     if (rt::simd() != which) continue;  // not on this processor
     std::uint64_t hash = 0;
-    for (const ShapeKind kind :
-         {ShapeKind::ball, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::frustum,
-          ShapeKind::vesica, ShapeKind::box, ShapeKind::wedge, ShapeKind::half_shell,
-          ShapeKind::tube}) {
+    for (const ShapeKind kind : {ShapeKind::ball, ShapeKind::capsule, ShapeKind::cylinder,
+                                 ShapeKind::frustum, ShapeKind::vesica, ShapeKind::box,
+                                 ShapeKind::wedge, ShapeKind::half_shell, ShapeKind::tube}) {
       Work work(phantom::slab(), 0.25, 5);
       const Shape shape = {kind, 1 * kMm, 0.7 * kMm, 2 * kMm, 0.2 * kMm};
       work.cut_all(one_part(shape), {Vec3(0.1, 0.2, -0.5) * kMm, kTurned}, Sweep::turning);

@@ -33,7 +33,7 @@ const Kind kKinds[] = {
      // Steiner: core, its area times the rounding, half of its edges, the ball
      M_PI * 24 + 0.5 * (2 * M_PI * 4 + 4 * M_PI * 6) + 0.25 * (M_PI * M_PI * 2 + M_PI * 6) +
          4.0 / 3 * M_PI * 0.125},
-    {"tube", {ShapeKind::tube, 2 * kMm, 1.4 * kMm, 3 * kMm, 0}, M_PI * (4 - 1.96) * 6},
+    {"tube", {ShapeKind::tube, 2 * kMm, 1.4 * kMm, 3 * kMm, 0}, M_PI*(4 - 1.96) * 6},
     {"box", {ShapeKind::box, 1 * kMm, 2 * kMm, 3 * kMm, 0}, 48},
     {"wedge", {ShapeKind::wedge, 1 * kMm, 2 * kMm, 6 * kMm, 0}, 24},
 };

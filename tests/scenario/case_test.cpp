@@ -88,7 +88,8 @@ TEST(Case, MistakesAreNamedByFileAndField) {
       {"share = 0.5", "share = 1.5", "target[1].share", "at most 1"},
       {"[[spare]]\ntissue = \"nerve\"", "[spare]\ntissue = \"nerve\"", "spare", "list of tables"},
       {"[[spare]]\ntissue = \"nerve\"", "[[spare]]", "spare[1].tissue", "missing"},
-      {"title = \"A case\"", "title = \"A case\"\ntool = \"spoon\"", "tool", "use one of fissure-bur"},
+      {"title = \"A case\"", "title = \"A case\"\ntool = \"spoon\"", "tool",
+       "use one of fissure-bur"},
       {"into = [0, 0, -2]", "into = [0, 0", "line", ""},
   };
   for (const Mistake& mistake : mistakes) {

@@ -14,8 +14,8 @@ using math::Vec3;
 
 TEST(Rack, BringsEveryKindOfTool) {
   const Rack& rack = built_in_rack();
-  for (const char* name : {"fissure-bur", "lindemann", "flame", "cone", "wheel", "twist-drill", "trephine",
-                           "sagittal-saw", "reciprocating-saw", "osteotome", "curette"})
+  for (const char* name : {"fissure-bur", "lindemann", "flame", "cone", "wheel", "twist-drill",
+                           "trephine", "sagittal-saw", "reciprocating-saw", "osteotome", "curette"})
     EXPECT_NE(rack.find(name), nullptr) << name;
   for (const RackTool& tool : rack.all) {
     SCOPED_TRACE(tool.name);
@@ -92,10 +92,15 @@ TEST(Rack, AMistakeIsOneSentenceWithLineAndField) {
       {"rpm = 1000", "stroke_mm = 2",
        "line 5: tool[1].stroke_mm: belongs to drive = \"oscillating or reciprocating\""},
       {"rpm = 1000\n", "", "tool[1].rpm: is missing"},
-      {"rpm = 1000", "rpm = 1000\nlean_deg = 91", "tool[1].lean_deg: must be a number above 0 and at most 90"},
+      {"rpm = 1000", "rpm = 1000\nlean_deg = 91",
+       "tool[1].lean_deg: must be a number above 0 and at most 90"},
       {"\"cuts\"", "\"rubs\"", "tool[1].part: none cuts"},
+      {"shape = \"cylinder\"", "shape = \"pipe\"",
+       "tool[1].part[1].shape: \"pipe\" is not known; use one of ball, capsule"},
       {"shape = \"cylinder\"", "shape = \"tube\"",
-       "tool[1].part[1].shape: \"tube\" is not known; use one of ball, capsule"},
+       "tool[1].part[1].inner_mm: is missing; give a number"},
+      {"shape = \"cylinder\"", "shape = \"tube\"\ninner_mm = 4.5",
+       "tool[1].part[1].shape: has no body: edge_mm"},
       {"diameter_mm = 4", "diameter_mm = 0",
        "tool[1].part[1].diameter_mm: must be a number above 0"},
       {"length_mm = 6", "length_mm = 6\nedge_mm = 3",

@@ -151,8 +151,12 @@ TEST(Synth, ASawBitesTwiceAStroke) {
     return power;
   };
   const std::vector<double> saw = swell(true), burr = swell(false);
-  const auto most = [](const std::vector<double>& of) { return *std::max_element(of.begin(), of.end()); };
-  const auto least = [](const std::vector<double>& of) { return *std::min_element(of.begin(), of.end()); };
+  const auto most = [](const std::vector<double>& of) {
+    return *std::max_element(of.begin(), of.end());
+  };
+  const auto least = [](const std::vector<double>& of) {
+    return *std::min_element(of.begin(), of.end());
+  };
   EXPECT_GT(most(saw), 5 * least(saw));
   EXPECT_LT(most(burr), 1.5 * least(burr));
   // twice: half a stroke later it is the same again

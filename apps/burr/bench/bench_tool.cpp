@@ -71,7 +71,8 @@ Extent extent_of(const tool::Tool& tool) {
 phantom::Depth depth_of(const std::string& scene, const Extent& tool) {
   const phantom::Depth ground = phantom::slab();
   if (scene == "groove")
-    return phantom::placed(phantom::groove(std::numbers::pi / 4), {Vec3(0, 0, -6e-3), math::Quat::Identity()});
+    return phantom::placed(phantom::groove(std::numbers::pi / 4),
+                           {Vec3(0, 0, -6e-3), math::Quat::Identity()});
   if (scene == "hole") return phantom::without(ground, phantom::cylinder(kHole, 12e-3));
   if (scene == "slot")
     return phantom::without(ground, phantom::box(Vec3(20e-3, tool.y + 0.3e-3, 10e-3)));
@@ -113,7 +114,8 @@ device::HandPath path_of(const Options& options, const std::string& scene, const
   for (int n = 0; n < kWarmUp + options.ticks; ++n) {
     const double t = std::max(0, n - kWarmUp) / kRate;
     const double above = n < kWarmUp ? 8e-3 * (1 - static_cast<double>(n) / kWarmUp) : 0;
-    const Vec3 at(wide_x * std::sin(angular(wide_x) * t), wide_y * std::sin(0.83 * angular(wide_y) * t),
+    const Vec3 at(wide_x * std::sin(angular(wide_x) * t),
+                  wide_y * std::sin(0.83 * angular(wide_y) * t),
                   above - deep + kPressed * std::sin(31 * t));
     const Vec3 turn(turned * std::sin(turn_rate / turned * t),
                     turned * std::sin(0.77 * turn_rate / turned * t),
@@ -216,10 +218,12 @@ Status run(const Options& options) {
       all.push_back(*measured);
       const auto of = [&](const char* name) { return measured->at(name).get<double>(); };
       if (options.json) continue;
-      fmt::print("{:<18} {:<7} {:>7.1f} {:>7.1f} {:>8.1f} {:>7.1f} {:>6.0f} {:>7.2f} {:>7.3f} {:>8.2f} {:>9.2f}\n",
-                 tool.name, scene, of("p50_us"), of("p99_us"), of("p999_us"), of("max_us"),
-                 of("candidates_p50"), of("mean_force_N"), of("second_difference_N_p99"),
-                 of("second_difference_N_mm_p99"), of("removed_mm3"));
+      fmt::print(
+          "{:<18} {:<7} {:>7.1f} {:>7.1f} {:>8.1f} {:>7.1f} {:>6.0f} {:>7.2f} {:>7.3f} {:>8.2f} "
+          "{:>9.2f}\n",
+          tool.name, scene, of("p50_us"), of("p99_us"), of("p999_us"), of("max_us"),
+          of("candidates_p50"), of("mean_force_N"), of("second_difference_N_p99"),
+          of("second_difference_N_mm_p99"), of("removed_mm3"));
     }
   if (options.json) fmt::print("{}\n", app::json_line(all));
   return fine();

@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "burr/base/printable.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/held_tool.h"
 #include "burr/render/picture.h"
@@ -39,6 +41,14 @@
 
 namespace burr::app {
 namespace {
+
+// "burr 5.00 mm", or "tool flame"
+std::string tool_text(const tool::ToolState& tool, const record::SessionInfo& info) {
+  if (tool.number < 0 || tool.number >= static_cast<int>(info.tools.size()))
+    return fmt::format("burr {:.2f} mm", 2e3 * tool.radius);
+  const std::string& name = info.tools[static_cast<std::size_t>(tool.number)].name;
+  return "tool " + base::printable(name);
+}
 
 struct Options {
   std::string file, beside, picture, film, sound;
@@ -279,7 +289,10 @@ Status run(const Options& options) {
     return error(Trouble::usage, fmt::format("--at {} is after the end; {} lasts {:.3f} s",
                                              options.at, options.file, player.seconds()));
 
-  double burr = recorded->settings.servo.burr.radius;  // the last
+  tool::ToolState first;
+  first.radius = recorded->settings.servo.burr.radius;
+  first.number = recorded->settings.servo.tool;
+  std::string tool = tool_text(first, player.info());  // the last
   nlohmann::json out;
   std::uint64_t lost = 0;
   nlohmann::json holes = nlohmann::json::array();
@@ -296,13 +309,12 @@ Status run(const Options& options) {
     if (!last) return last.error();
     out["removed_mm3"] = 1e9 * last->ledger.removed;
     out["asked_mm3"] = 1e9 * last->ledger.asked;
-    burr = last->tool.radius;
+    tool = tool_text(last->tool, player.info());
   }
   if (!options.json)
-    fmt::print("{:.3f} s, {} ticks{} at {} Hz, burr {:.2f} mm; removed {:.3f} mm3\n",
-               player.seconds(), player.end_tick() - lost,
-               lost > 0 ? fmt::format(" of {}", player.end_tick()) : "", player.info().rate_hz,
-               2e3 * burr, out.value("removed_mm3", 0.0));
+    fmt::print("{:.3f} s, {} ticks{} at {} Hz, {}; removed {:.3f} mm3\n", player.seconds(),
+               player.end_tick() - lost, lost > 0 ? fmt::format(" of {}", player.end_tick()) : "",
+               player.info().rate_hz, tool, out.value("removed_mm3", 0.0));
 
   if (options.check) {
     const record::SessionInfo& info = player.info();

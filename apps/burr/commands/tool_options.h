@@ -22,7 +22,6 @@ void add_tool_options(CLI::App& command, ToolOptions& options);
 // unknown name, with those that there are; a mistake in the list; a list without a name.
 [[nodiscard]] Status take_tool(const ToolOptions& options, tick::ServoSettings& settings);
 
-
 // For a session in the window, where the user changes the tool: all tools of the rack whose parts are
 // as thick as a voxel [m] or thicker go into the session's list, and the named one, if any, into the
 // hand. Returns them in the same order. Error: as above, but a list without a name is none.

@@ -32,8 +32,7 @@ constexpr double kMm = 1e-3;
 // The sizes of a part as a person gives them.
 struct Sizes {
   double diameter_mm = 0, behind_mm = -1, length_mm = 0, edge_mm = 0, width_mm = 0,
-         half_angle_deg = 0, height_mm = -1,
-         inner_mm = 0;
+         half_angle_deg = 0, height_mm = -1, inner_mm = 0;
   std::optional<Vec3> size_mm;
   std::optional<double> from_mm, to_mm;
 };
@@ -241,7 +240,8 @@ bool is_name(std::string_view name) {
 
 void read_tool(Reader& reader, Rack& rack) {
   reader.only({"name", "title", "group", "source", "drive", "rpm", "strokes_per_minute",
-               "stroke_mm", "blow_j", "way", "teeth", "efficiency", "least_weight", "lean_deg", "part"});
+               "stroke_mm", "blow_j", "way", "teeth", "efficiency", "least_weight", "lean_deg",
+               "part"});
   RackTool out;
   reader.text("name", out.name, true);
   if (!is_name(out.name))

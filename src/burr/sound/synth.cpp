@@ -198,8 +198,7 @@ double Synth::cutting() BURR_RT {
   if (loud == 0) return 0;
   const double tuned = std::tan(kPi * std::min(hz * dt_, 0.4));
   const double to_and_fro = strokes_.step(usual_);
-  const double swell =
-      1 + to_and_fro * (std::sqrt(2.0) * std::abs(std::sin(2 * kPi * turn_)) - 1);
+  const double swell = 1 + to_and_fro * (std::sqrt(2.0) * std::abs(std::sin(2 * kPi * turn_)) - 1);
   return settings_.cutting * swell * loud * gain_of(tuned, kBoneQuality) *
          bone_band_.step(white(), tuned, 1 / kBoneQuality);
 }

@@ -105,7 +105,8 @@ class Synth {
   std::uint64_t count_ = 0;      // random numbers used so far
 
   // requested values, smoothed
-  Smooth turns_hz_, loaded_, removal_, tissue_hz_, coolant_, loudness_, tooth_, warn_pitch_, strokes_;
+  Smooth turns_hz_, loaded_, removal_, tissue_hz_, coolant_, loudness_, tooth_, warn_pitch_,
+      strokes_;
   int teeth_ = 0, teeth_requested_ = 8;
   bool touching_ = false, struck_ = false;
   double untouched_;  // since the last contact [s]

@@ -77,7 +77,7 @@ BoundingBall bounding_ball(const Shape& shape) BURR_RT {
   return {0.5 * (box.hi + box.lo), math::norm(half) + shape.rounding};
 }
 
-bool convex(ShapeKind kind) BURR_RT { 
+bool convex(ShapeKind kind) BURR_RT {
   return kind != ShapeKind::half_shell && kind != ShapeKind::tube;
 }
 

@@ -214,10 +214,10 @@ void speed_cell(Strip& strip, const HudState& s) {
 void tool_cell(const Ui& ui, Strip& strip, const HudState& s) {
   const std::string value = fmt::format("{:g}", std::round(1e5 * s.burr_diameter) / 100);
   if (s.tool.empty())
-    return strip.cell(132, Word::burr, value,
-                      fmt::format("mm  {}", word(s.diamond && s.mode == tick::ToolMode::cut
-                                                     ? Word::diamond
-                                                     : name_of(s.mode))));
+    return strip.cell(
+        132, Word::burr, value,
+        fmt::format("mm  {}", word(s.diamond && s.mode == tick::ToolMode::cut ? Word::diamond
+                                                                              : name_of(s.mode))));
   constexpr float kRoom = 114;  // [points]
   strip.title(shortened(ui, s.tool, kRoom * strip.unit()));
   if (!fits(ui, s.tool, kRoom * strip.unit())) tip_over(strip, 132 * strip.unit(), s.tool);

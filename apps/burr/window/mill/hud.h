@@ -33,7 +33,7 @@ struct HudState {
   double load = 0;                   // share of the motor's torque       [0..1]
   double burr_diameter = 0;          // of another tool: how wide it cuts  [m]
   bool diamond = false;
-  std::string tool;                // title; "": the round burr
+  std::string tool;                 // title; "": the round burr
   bool turns = true, motor = true;  // otherwise: strokes; the hand alone moves it
   tick::ToolMode mode = tick::ToolMode::cut;
   double removed = 0;  // [m^3]

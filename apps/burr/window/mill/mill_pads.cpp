@@ -21,8 +21,9 @@ constexpr double kLongest = 0.1;     // a longer picture does not move the point
 
 PedalMap map_of(const Settings& settings) {
   const auto number = [](double value) { return static_cast<int>(std::lround(value)); };
-  return {number(settings.pedal_mill), number(settings.pedal_burr), number(settings.pedal_coolant),
-          number(settings.pedal_clutch), number(settings.pedal_rest), number(settings.pedal_tool)};
+  return {number(settings.pedal_mill),    number(settings.pedal_burr),
+          number(settings.pedal_coolant), number(settings.pedal_clutch),
+          number(settings.pedal_rest),    number(settings.pedal_tool)};
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ void Mill::take_tool(int place) {
   grip_.take(rack_.tool(place));
   if (place >= 0) return note(say(Word::tool_now, rack_.title(place)));
   const bool diamond = place == ToolRack::kDiamond;
-  note(diamond != scene_.burr.diamond ? drill_.toggle_kind()
-                                      : std::string(word(diamond ? Word::now_diamond
-                                                                 : Word::now_fluted)));
+  note(diamond != scene_.burr.diamond
+           ? drill_.toggle_kind()
+           : std::string(word(diamond ? Word::now_diamond : Word::now_fluted)));
 }
 
 // The next tool of the rack; after the last comes the round burr, because a pedal has one button for it.

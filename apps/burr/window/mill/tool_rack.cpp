@@ -26,9 +26,8 @@ void ToolRack::step(render::Renderer& renderer, const tool::Burr& burr) {
     if (pictures_[n].name() != 0) continue;
     tool::Burr round = burr;
     round.kind = n == 0 ? tool::BurrKind::cutting : tool::BurrKind::diamond;
-    const render::Scene scene =
-        n < 2 ? workshop::tip_picture(round, kAspect)
-              : workshop::tip_picture(tools_[n - 2].tool, kAspect);
+    const render::Scene scene = n < 2 ? workshop::tip_picture(round, kAspect)
+                                      : workshop::tip_picture(tools_[n - 2].tool, kAspect);
     const auto image = renderer.image(scene, kWide, kHigh);
     if (image) pictures_[n].put(image->width, image->height, 3, image->rgb);
     return;
@@ -46,8 +45,8 @@ std::vector<RackTile> ToolRack::tiles(int number, bool diamond, const tool::Burr
                    say(Word::burr_now, 2e3 * burr.radius), pictures_[all.size()].name(),
                    number < 0 && of_diamond == diamond});
   for (int n = 0; n < size(); ++n)
-    all.push_back(
-        {title(n), about(*tool(n)), pictures_[static_cast<std::size_t>(n) + 2].name(), n == number});
+    all.push_back({title(n), about(*tool(n)), pictures_[static_cast<std::size_t>(n) + 2].name(),
+                   n == number});
   return all;
 }
 

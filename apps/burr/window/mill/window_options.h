@@ -22,13 +22,13 @@
 namespace burr::app {
 
 struct WindowOptions {
-  std::string title = {};       // of the work, on the window's frame; empty: burr
-  Earlier earlier = {};         // counted with this session's time and volume
+  std::string title = {};                     // of the work, on the window's frame; empty: burr
+  Earlier earlier = {};                       // counted with this session's time and volume
   std::vector<scenario::RackTool> rack = {};  // in the order of the session's list of tools
-  double seconds = 0;           // closes after this time; 0: when the user closes it
-  std::string folder = {};      // for pictures of the key P; empty: the start folder
-  std::string screenshot = {};  // PNG of the last picture with panels; empty: none
-  bool sound = true;            // if there is a sound device
+  double seconds = 0;                         // closes after this time; 0: when the user closes it
+  std::string folder = {};                    // for pictures of the key P; empty: the start folder
+  std::string screenshot = {};                // PNG of the last picture with panels; empty: none
+  bool sound = true;                          // if there is a sound device
   // called often; returns a warning for the user, "" for none
   std::function<std::string()> warning = {};
   // marks this session as one to keep; false: there is nothing to keep
