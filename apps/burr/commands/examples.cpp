@@ -77,6 +77,7 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"check", "", "12 seconds"},
     {"check", "--seconds 60 --no-picture", "longer, without a picture"},
     {"bench tick", "--mill slot --ticks 10000", "milling a slot"},
+    {"bench tool", "--tool sagittal-saw --scene slot --mill", "a saw in its slot"},
     {"bench methods", "--size 128 --json", "all methods of touch"},
     {"bench surface", "--size 256 --runs 3", "a smaller shell"},
     {"bench carve", "--cuts 500", "fewer cuts"},

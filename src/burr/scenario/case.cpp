@@ -13,6 +13,7 @@
 #include "burr/scenario/lesson.h"
 #include "burr/scenario/rack.h"
 #include "burr/scenario/read_lesson.h"
+#include "burr/scenario/read_texts.h"
 #include "burr/scenario/toml_reader.h"
 
 namespace burr::scenario {

@@ -13,7 +13,7 @@
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/scenario/rack_text.h"
-#include "burr/scenario/read_lesson.h"
+#include "burr/scenario/read_texts.h"
 #include "burr/scenario/toml_reader.h"
 
 namespace burr::scenario {

@@ -3,16 +3,10 @@
 // Thread: any.
 #pragma once
 
-#include <initializer_list>
-#include <string_view>
-
 #include "burr/scenario/lesson.h"
 #include "burr/scenario/toml_reader.h"
 
 namespace burr::scenario {
-
-// A text, or a table of texts by language: say = "...", say.en = "...".
-void read_texts(Reader& reader, std::string_view key, Texts& out, bool needed = false);
 
 // Everything but the fields of format 1, which parse_case() reads. Checks that names that refer to
 // each other are there, but not those of landmarks, which the bone may have.
