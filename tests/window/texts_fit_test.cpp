@@ -2,6 +2,8 @@
 #include "burr/scenario/case.h"
 #include "burr/scenario/open_lesson.h"
 #include "user.h"
+#include "window/mill/mill_keys.h"
+#include "window/shell/help.h"
 
 namespace burr::app {
 namespace {
@@ -137,6 +139,14 @@ TEST_F(Window, TextsFitTheirBoxesInEveryLanguage) {
       for (const Word text : box.texts)
         EXPECT_LE(ui.width_of(box.letter, word(text)) / ui.unit(), box.points)
             << language.code << ": " << word(text);
+    // help.cpp: every row of the page of keys, in its column
+    for (const HelpRow& row : mill_help_rows(false)) {
+      const bool left = row.block == HelpBlock::hand || row.block == HelpBlock::view;
+      EXPECT_LE(ui.width_of(Letter::strong, row.keys) / ui.unit(), 164)
+          << language.code << ": " << row.keys;
+      EXPECT_LE(ui.width_of(Letter::body, word(row.does)) / ui.unit(), left ? 280 : 262)
+          << language.code << ": " << word(row.does);
+    }
     // steps_panel.cpp: the list, and its two buttons side by side
     for (const std::string& name : scenario::built_in_cases()) {
       const auto lesson = scenario::lesson_of(*scenario::read_case(name));
