@@ -7,6 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "burr/io/read/read_scan.h"
 #include "io/dicom_writer.h"
@@ -97,6 +100,37 @@ class FoundScans : public test::FolderTest {
     EXPECT_TRUE(says(*best, "2 volumes found in 1 series")) << all_of(*best);
   }
 };
+
+// ---- many studies
+
+TEST_F(FoundScans, OfSeveralSeriesTheDateOfTheStudyIsKnownAndNothingElseOfThePatient) {
+  const std::pair<const char*, const char*> dates[] = {{"20190307", "2019-03-07"},
+                                                       {"2020.11.02", "2020-11-02"},
+                                                       {"", ""},
+                                                       {"2021030", ""},
+                                                       {"2021O301", ""}};
+  int n = 0;
+  for (const auto& [stated, seen] : dates) {
+    const std::string number = std::to_string(++n);
+    phase("s" + number + "_", 5, 0, 1, 1100, [&](DicomSlice& s, int) {
+      s.set(0x0020000E, "UI", "1.2.3." + number).set(0x0020000D, "UI", "1.2.4." + number);
+      s.set(0x00200011, "IS", number);
+      if (*stated != 0) s.set(0x00080020, "DA", stated);
+      s.set(0x00100010, "PN", "Svensson^Karin").set(0x00100030, "DA", "19561224");
+    });
+  }
+  const auto scan = read_path(folder);
+  ASSERT_TRUE(scan.ok()) << scan.error().text;
+  ASSERT_EQ(scan->series.size(), std::size(dates)) << all_of(*scan);
+  ASSERT_EQ(scan->series_dates.size(), std::size(dates));
+  std::multiset<std::string> wanted, found(scan->series_dates.begin(), scan->series_dates.end());
+  for (const auto& [stated, seen] : dates) wanted.insert(seen);
+  EXPECT_EQ(found, wanted);
+  std::string all = all_of(*scan);
+  for (const std::string& line : scan->series) all += line + "\n";
+  for (const char* personal : {"Svensson", "Karin", "1956", "2019", "2020"})
+    EXPECT_EQ(all.find(personal), std::string::npos) << personal << " is in\n" << all;
+}
 
 // ---- phases
 

@@ -1,6 +1,7 @@
 // Section, two eyes, and the view through a tube, compared with geometry.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -177,6 +178,27 @@ TEST(Round, OnlyACircleIsSeen) {
     }
   EXPECT_EQ(beside, 0);
   EXPECT_EQ(dark, 0);
+}
+
+// An even white face shows every step: each pixel has its own shade.
+TEST(Vignette, DarkensTheCornersWithoutStripes) {
+  BURR_NEEDS_GPU(gpu);
+  Scene scene;
+  scene.look.background_top = scene.look.background_bottom = {1, 1, 1};
+  scene.vignette = 0.8;
+  const auto image = gpu.image(scene, kWide, kHigh);
+  ASSERT_TRUE(image.ok()) << image.error().text;
+  const double from = 0.45 * kHigh, to = 0.5 * std::hypot(kWide, kHigh);
+  double most = 0;
+  for (int y = 0; y < kHigh; ++y)
+    for (int x = 0; x < kWide; ++x) {
+      const double r = std::hypot(x + 0.5 - kWide / 2.0, y + 0.5 - kHigh / 2.0);
+      const double part = std::clamp((r - from) / (to - from), 0.0, 1.0);
+      const double wanted = 255 * (1 - 0.8 * part * part * (3 - 2 * part));
+      const auto at = static_cast<std::size_t>(3 * (y * kWide + x));
+      most = std::max(most, std::abs(image->rgb[at] - wanted));
+    }
+  EXPECT_LE(most, 1.0);
 }
 
 TEST(Inset, LiesWhereItIsPutAndIsSentAgainWhenItChanges) {

@@ -10,6 +10,8 @@
 #include "burr/record/player.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
+#include "io/dicom_writer.h"
+#include "window/import/series_page.h"
 #include "window/shell/pages.h"
 #include "window/start/sessions.h"
 #include "window/user.h"
@@ -539,6 +541,45 @@ TEST_F(ImportWindow, OfSeveralSeriesOneIsChosenByItsPicture) {
       {"its own picture", looks(5), [] { press(SDLK_RETURN); }}},
      then_mills());
   EXPECT_EQ(begun().recipe.series, "#5");
+}
+
+// Of a folder of many patients: dates only after a key or a click asked for them.
+TEST_F(ImportWindow, OfManySeriesTheDatesAreHiddenUntilTheyAreAskedFor) {
+  const fs::path folder = folder_ / "many";
+  fs::create_directories(folder);
+  for (int n = 1; n <= 2; ++n)
+    for (int k = 0; k < 6; ++k) {
+      test::DicomSlice slice;
+      slice.at(k, k + 1).set(0x0020000E, "UI", "1.2.3." + std::to_string(n));
+      slice.set(0x00200011, "IS", std::to_string(n)).set(0x00080020, "DA", "20190307");
+      slice.value = 1500;
+      slice.write(folder / (std::to_string(n) + "_" + std::to_string(k) + ".dcm"));
+    }
+  render::Image hidden, by_key, again, by_mouse;
+  const auto keep = [this](render::Image& image, std::function<void()> then) {
+    return [this, &image, then] {
+      image = desk_->renderer().shown();
+      then();
+    };
+  };
+  pages_by({{"the start page", on(Page::start), [&] { drop(folder); }},
+            {"the list", on(Page::import), [] { move_to(1200, 20); }},
+            // both pictures are made by then
+            {"no dates", looks(20), keep(hidden, [] { press(SDLK_d); })},
+            {"dates", looks(4), keep(by_key, [] { press(SDLK_d); })},
+            {"no dates again", looks(4),
+             keep(again,
+                  [] {
+                    click(static_cast<int>(SeriesPage::kLeft + SeriesPage::kDates) + 12,
+                          720 - static_cast<int>(SeriesPage::kFoot) + 14);
+                  })},
+            {"a moment", looks(4), [] { move_to(1200, 20); }},
+            {"dates", looks(4), keep(by_mouse, [] { press(SDLK_ESCAPE); })},
+            {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
+  // a line of small letters in each row, above the foot
+  EXPECT_GT(differ(hidden, by_key, 40, 110, 600, 300), 200);
+  EXPECT_EQ(differ(hidden, again, 40, 110, 600, 300), 0);
+  EXPECT_EQ(differ(by_key, by_mouse, 40, 110, 600, 300), 0);
 }
 
 // W: the scan's own values in the slices; the button that turns pulls their window.

@@ -147,7 +147,6 @@ TEST_F(Survival, AfterTheGraphicsCardIsLostTheSamePictureIsThereAgainAndBoneIsCu
   sim::Session& session = *ready->session;
   render::Image before, after;
   std::uint64_t then = 0;
-  // made good of all that was left out while the eye moved or the machine was busy
   const auto at_rest = [&] {
     return [this, n = 0]() mutable { return ++n > 60 && desk_->renderer().refined(); };
   };
@@ -177,7 +176,7 @@ TEST_F(Survival, AfterTheGraphicsCardIsLostTheSamePictureIsThereAgainAndBoneIsCu
   EXPECT_EQ(desk_->renewed(), 1);
   ASSERT_EQ(after.width, before.width);
   EXPECT_TRUE(something_in(before, 300, 100, 1000, 600)) << "no bone: the test shows nothing";
-  // the governor may have left out shade on one side only; lost bone would be a tenth and more
+  // lost bone would be a tenth and more
   EXPECT_LT(differ(before, after, 300, 150, 1000, 700), 700 * 550 / 50);
   EXPECT_TRUE(something_in(after, 300, 100, 1000, 600));
   EXPECT_GT(session.outcome().ledger.removed, 0);

@@ -2,6 +2,8 @@
 #include "burr/scenario/case.h"
 #include "burr/scenario/open_lesson.h"
 #include "user.h"
+#include "window/mill/mill_keys.h"
+#include "window/shell/help.h"
 
 namespace burr::app {
 namespace {
@@ -28,17 +30,20 @@ const std::vector<Box>& boxes() {
         Word::key_shift_wheel, Word::key_space, Word::key_arrows, Word::key_shift_arrows,
         Word::key_ctrl_arrows, Word::key_sticks, Word::key_right_trigger, Word::key_left_trigger,
         Word::key_shoulders, Word::key_cross, Word::key_clicks, Word::key_real, Word::replay_drag}},
-      {Letter::body,
-       280,
-       {Word::help_mill,           Word::help_hold,         Word::help_push,
-        Word::help_plane,          Word::help_aim,          Word::help_turn,
-        Word::help_shift,          Word::help_zoom,         Word::help_first_view,
-        Word::help_slices,         Word::help_labels,       Word::help_window,
-        Word::help_views,          Word::help_names,        Word::help_see_through,
-        Word::replay_help_play,    Word::replay_help_step,  Word::replay_help_small,
-        Word::replay_help_stroke,  Word::replay_help_ends,  Word::replay_help_drag,
-        Word::replay_help_beside,  Word::replay_help_shift, Word::film_marks,
-        Word::replay_help_compare, Word::replay_help_slices}},
+      {Letter::body, 280, {Word::help_mill,          Word::help_hold,
+                           Word::help_push,          Word::help_plane,
+                           Word::help_aim,           Word::help_turn,
+                           Word::help_shift,         Word::help_zoom,
+                           Word::help_first_view,    Word::help_slices,
+                           Word::help_labels,        Word::help_window,
+                           Word::help_views,         Word::help_names,
+                           Word::help_see_through,   Word::help_focus,
+                           Word::replay_help_play,   Word::replay_help_step,
+                           Word::replay_help_small,  Word::replay_help_stroke,
+                           Word::replay_help_ends,   Word::replay_help_drag,
+                           Word::replay_help_beside, Word::replay_help_shift,
+                           Word::film_marks,         Word::replay_help_compare,
+                           Word::replay_help_slices}},
       {Letter::body,
        262,
        {Word::help_modes, Word::help_sizes,    Word::help_speeds,   Word::help_undo,
@@ -134,6 +139,14 @@ TEST_F(Window, TextsFitTheirBoxesInEveryLanguage) {
       for (const Word text : box.texts)
         EXPECT_LE(ui.width_of(box.letter, word(text)) / ui.unit(), box.points)
             << language.code << ": " << word(text);
+    // help.cpp: every row of the page of keys, in its column
+    for (const HelpRow& row : mill_help_rows(false)) {
+      const bool left = row.block == HelpBlock::hand || row.block == HelpBlock::view;
+      EXPECT_LE(ui.width_of(Letter::strong, row.keys) / ui.unit(), 164)
+          << language.code << ": " << row.keys;
+      EXPECT_LE(ui.width_of(Letter::body, word(row.does)) / ui.unit(), left ? 280 : 262)
+          << language.code << ": " << word(row.does);
+    }
     // steps_panel.cpp: the list, and its two buttons side by side
     for (const std::string& name : scenario::built_in_cases()) {
       const auto lesson = scenario::lesson_of(*scenario::read_case(name));

@@ -33,9 +33,6 @@ class TwoEyes : public Window {
     (*renderer)->resize_offscreen(wide, high);
     render::Scene one = scene;
     one.quality = {};
-    // as few samples, and as plain, as a busy machine allows
-    one.quality.scale = scene.quality.scale;
-    one.quality.grain = one.quality.grain_still = scene.quality.grain_still;
     const auto made = [&](const render::Camera& camera) {
       one.camera = camera;
       EXPECT_TRUE((*renderer)->show(one));

@@ -1,7 +1,8 @@
 // io/scan.h - the content of a file before it becomes bone: a grid of numbers in the world, in
 // memory as it was read.
 //
-// It holds no patient name, id, date or path: only what the geometry and the numbers need.
+// It holds no patient name, id or path: only what the geometry and the numbers need. Of dates it
+// holds those of the studies in a list of series, and nothing that burr writes has them.
 // Units: mm. Frame: LPS. Thread: one at a time; plain data.
 #pragma once
 
@@ -59,6 +60,7 @@ struct Scan {
   // info` lists them, and the index of the one read here.
   std::vector<std::string> series;
   int series_taken = 0;
+  std::vector<std::string> series_dates;  // of the study of each, "2019-03-07"; empty: not stated
   std::vector<std::string>
       notices;  // oddities of the file and what was done about each, one sentence each
   std::vector<Question> questions;  // at most a few; importing refuses until they are answered

@@ -13,17 +13,17 @@ void put_skin(render::Scene& scene, const surface::Skin& skin) {
 }
 
 LiveSurface::LiveSurface(sim::Session& session, surface::Worker& worker, render::Scene& scene,
-                         bool software)
-    : LiveSurface(session.bone(), worker, scene, software) {
+                         bool software, const render::GovernorSettings& governor)
+    : LiveSurface(session.bone(), worker, scene, software, governor) {
   session_ = &session;
 }
 
 LiveSurface::LiveSurface(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene,
-                         bool software)
+                         bool software, const render::GovernorSettings& governor)
     : worker_(worker),
       scene_(scene),
       coarse_(worker.patches(), bone.grid().voxel),
-      governor_(software),
+      governor_(software, governor),
       wound_(bone.grid().voxel, render::bleeding_of(bone.tissues())) {}
 
 tick::Shed LiveSurface::shed() const {

@@ -27,10 +27,12 @@ void put_skin(render::Scene& scene, const surface::Skin& skin);
 
 class LiveSurface {
  public:
-  LiveSurface(sim::Session& session, surface::Worker& worker, render::Scene& scene, bool software);
+  // software: the processor draws. governor: how much of the picture may be left out.
+  LiveSurface(sim::Session& session, surface::Worker& worker, render::Scene& scene, bool software,
+              const render::GovernorSettings& governor = {});
   // For a bone that no servo cuts: nothing is delayed.
   LiveSurface(const volume::Bone& bone, surface::Worker& worker, render::Scene& scene,
-              bool software);
+              bool software, const render::GovernorSettings& governor = {});
 
   // Puts finished patches into the scene, as many as fit into a frame. Patches and coarse blocks
   // wait while the machine cannot keep up with the hand. eye: a headset's camera, used instead of

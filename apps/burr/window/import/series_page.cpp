@@ -49,6 +49,7 @@ SeriesPage::SeriesPage(Desk& desk, const OpenedScan& opened)
     : desk_(desk),
       recipe_(opened.volume),
       lines_(opened.scan->series),
+      dates_(opened.scan->series_dates),
       pictures_(lines_.size()),
       chosen_(static_cast<std::size_t>(opened.scan->series_taken)),
       show_chosen_(true),
@@ -115,6 +116,7 @@ void SeriesPage::take_events() {
     if (key == SDLK_ESCAPE) choice_ = Choice{};
     if (key == SDLK_DOWN) move(1);
     if (key == SDLK_UP) move(-1);
+    if (key == SDLK_d) dates_shown_ = !dates_shown_;
     if (key == SDLK_RETURN || key == SDLK_KP_ENTER) choice_ = Choice{chosen_, false};
   }
 }
@@ -161,11 +163,17 @@ void SeriesPage::draw() {
     const ImFont* font = ui.font(Letter::body);
     draw.AddText(font, font->FontSize, {p.x + edge + 22 * u, p.y + 26 * u}, ink::kText,
                  lines_[n].c_str(), nullptr, inner - edge - 40 * u);
+    if (!dates_shown_) continue;
+    const bool stated = n < dates_.size() && !dates_[n].empty();
+    ui.write(p.x + edge + 22 * u, p.y + row - 30 * u, Letter::small, ink::kDim,
+             stated ? say(Word::series_date, dates_[n]) : word(Word::series_no_date));
   }
   ImGui::EndChild();
   ImGui::PopStyleVar();
-  ImGui::SetCursorScreenPos({x, ui.height() - 54 * u});
+  ImGui::SetCursorScreenPos({x, ui.height() - kFoot * u});
   if (ImGui::Button(fmt::format("{}  [Esc]", word(Word::import_back)).c_str())) choice_ = Choice{};
+  ImGui::SetCursorScreenPos({x + kDates * u, ui.height() - kFoot * u});
+  ImGui::Checkbox(fmt::format("{}  [D]", word(Word::series_dates)).c_str(), &dates_shown_);
   ImGui::End();
 }
 

@@ -1,8 +1,9 @@
 // apps/burr/window/import/series_page.h - the page for a folder that holds several series: a list of
 // all, each with a picture of its middle slice, before one of them becomes bone.
 //
-// The lines are those of `burr info`: no name, number or date of a patient is read. Where the folder
-// holds several studies, a line says which it belongs to. The pictures are made one after the other
+// The lines are those of `burr info`: no name or number of a patient is read. Where the folder holds
+// several studies, a line says which it belongs to. The dates of the studies are shown only when the
+// user asks for them; the next list hides them again. The pictures are made one after the other
 // on a thread of its own; a series that cannot be read has none. Thread: main.
 #pragma once
 
@@ -38,8 +39,9 @@ class SeriesPage {
   // seconds: as in StartPage::ask.
   [[nodiscard]] Result<Choice> ask(double seconds);
 
-  // Top left corner of the first row and height of a row [points], for tests.
-  static constexpr float kLeft = 40, kTop = 110, kRow = 92;
+  // Top left corner of the first row and height of a row; the switch of the dates from kLeft, and
+  // the top of what is below the list from the bottom [points], for tests.
+  static constexpr float kLeft = 40, kTop = 110, kRow = 92, kDates = 200, kFoot = 54;
 
  private:
   void take_events();
@@ -49,7 +51,8 @@ class SeriesPage {
 
   Desk& desk_;
   scenario::Recipe recipe_;
-  std::vector<std::string> lines_;
+  std::vector<std::string> lines_, dates_;
+  bool dates_shown_ = false;
   std::vector<std::optional<render::Image>> pictures_;  // none: not made yet; empty: there is none
   std::vector<Texture> textures_;
   std::unique_ptr<Loading<render::Image>> making_;

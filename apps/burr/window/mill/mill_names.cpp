@@ -88,6 +88,7 @@ void Mill::draw_name() {
   float x = static_cast<float>(at.x()) + 20 * u, y = static_cast<float>(at.y()) - 40 * u;
   x = std::min(x, ui.width() - wide - 4 * u);
   if (y < 4 * u) y = static_cast<float>(at.y()) + 26 * u;
+  y = std::min(y, ui.height() - hud_height(ui) - high - 4 * u);  // the strip stays readable
   ImDrawList& draw = *ImGui::GetForegroundDrawList();
   draw.AddRectFilled({x, y}, {x + wide, y + high}, ink::kPanel, 5 * u);
   draw.AddRectFilled({x + 8 * u, y + 7 * u}, {x + 18 * u, y + 17 * u},

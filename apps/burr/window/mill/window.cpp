@@ -17,7 +17,8 @@
 namespace burr::app {
 
 Result<Closed> Mill::run() {
-  workshop::LiveSurface live(session_, worker_, scene_, desk_.renderer().software());
+  workshop::LiveSurface live(session_, worker_, scene_, desk_.renderer().software(),
+                             desk_.governor);
   begin();
   const Clock::time_point start = Clock::now();
   Clock::time_point frame_at = start;

@@ -129,7 +129,7 @@ Result<Closed> Watch::run() {
     return std::optional(recorded_.film);
   });
   first_view_ = scene_.camera;
-  first_.emplace(recorded_, desk_.renderer().software());
+  first_.emplace(recorded_, desk_.renderer().software(), desk_.governor);
   if (!options_.beside.empty()) {
     const Status opened = open_beside(options_.beside);
     if (!opened && opened.error().trouble != Trouble::interrupted) return opened.error();
@@ -237,7 +237,7 @@ Status Watch::open_beside(const std::string& file) {
   if (!opened) return opened.error();
   close_beside();
   beside_ = std::make_unique<Recorded>(std::move(*opened));
-  second_.emplace(*beside_, desk_.renderer().software());
+  second_.emplace(*beside_, desk_.renderer().software(), desk_.governor);
   second_->show_labels(labels_);
   second_view_ = beside_->scene.camera;
   // if both have the same bone, both are seen from the same viewpoint

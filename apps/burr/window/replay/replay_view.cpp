@@ -17,12 +17,12 @@ constexpr auto kPatience = std::chrono::milliseconds(150);  // before "..." is s
 
 }  // namespace
 
-ReplayView::ReplayView(Recorded& recorded, bool software)
+ReplayView::ReplayView(Recorded& recorded, bool software, const render::GovernorSettings& governor)
     : recorded_(recorded),
       colours_(recorded.scene.tissue_colours),
       slices_(*recorded.bone),
       plain_(*recorded.bone),
-      live_(*recorded.bone, *recorded.worker, recorded.scene, software),
+      live_(*recorded.bone, *recorded.worker, recorded.scene, software, governor),
       playback_(recorded) {
   scene().scale_bar = false;
   difference_colours_ = Difference::add_colours(scene().tissue_colours);

@@ -1,7 +1,7 @@
 // apps/burr/window/replay/replay_view.h - one recording as it is shown: bone and tool at the
 // requested moment, and the values of that moment. One fills the window, or two share it.
 //
-//     ReplayView side(recorded, software);
+//     ReplayView side(recorded, software, governor);
 //     each frame:   side.want(t);
 //                   side.look(effects, playing, left_handed);      // into recorded.scene
 //                   ... draw recorded.scene ...
@@ -25,7 +25,7 @@ namespace burr::app {
 class ReplayView {
  public:
   // `recorded` must outlive this object. The destructor restores the look of its scene.
-  ReplayView(Recorded& recorded, bool software);
+  ReplayView(Recorded& recorded, bool software, const render::GovernorSettings& governor);
   ~ReplayView();
   ReplayView(const ReplayView&) = delete;
   ReplayView& operator=(const ReplayView&) = delete;

@@ -12,6 +12,7 @@
 
 #include "burr/base/places.h"
 #include "burr/base/result.h"
+#include "burr/render/governor.h"
 #include "burr/render/headset.h"
 #include "burr/render/renderer.h"
 #include "window/hands/gamepad.h"
@@ -37,6 +38,7 @@ class Desk {
   [[nodiscard]] const DeskPlaces& places() const { return places_; }
 
   Settings settings;
+  render::GovernorSettings governor;  // how much the picture may leave out on a busy machine
   std::vector<std::string> troubles;  // about the settings file and stereo; shown once
   Page page = Page::none;             // the page that is shown now
   std::string message;                // start and import pages: the error that is shown

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include "commands/interrupt.h"
 #include "window/shell/words.h"
@@ -23,6 +25,24 @@ SharedProgress::Now SharedProgress::now() const {
 
 namespace {
 
+// The step in the user's language; one that has no words is shown as the program calls it.
+std::string stage_words(const std::string& stage) {
+  constexpr std::pair<std::string_view, Word> kKnown[] = {
+      {"reading", Word::stage_reading},
+      {"counting values", Word::stage_counting},
+      {"straightening the slices", Word::stage_straightening},
+      {"looking for separate parts", Word::stage_parts},
+      {"shaping bone", Word::stage_shaping},
+      {"filling bone", Word::stage_filling},
+      {"finding the surface", Word::stage_finding},
+      {"making the surface", Word::stage_making},
+      {"measuring the distance to structures to spare", Word::nearest_far},
+      {"copying the bone", Word::stage_copying}};
+  for (const auto& [known, says] : kKnown)
+    if (stage == known) return word(says);
+  return stage;
+}
+
 // returns true if the user cancels
 bool draw_loading(Ui& ui, const std::string& title, const SharedProgress::Now& now, bool stopping) {
   const float u = ui.unit(), w = 520 * u, h = 170 * u;
@@ -39,7 +59,8 @@ bool draw_loading(Ui& ui, const std::string& title, const SharedProgress::Now& n
                        4 * u);
   ui.write(x + 28 * u, top + 18 * u, Ui::Letter::body, ink::kDim,
            stopping ? std::string(word(Word::stopping))
-                    : fmt::format("{}  {:.0f} %", now.stage, 100 * static_cast<double>(share)));
+                    : fmt::format("{}  {:.0f} %", stage_words(now.stage),
+                                  100 * static_cast<double>(share)));
   ImGui::SetCursorScreenPos({x + w - 148 * u, y + h - 50 * u});
   const bool cancel = ImGui::Button(word(Word::cancel), {120 * u, 0});
   ImGui::End();

@@ -312,17 +312,22 @@ void StartPage::sessions(float x, float& y, float w) {
   }
   for (std::size_t n = 0; n < std::min(kept_.size(), kSessionsShown); ++n) {
     const KeptSession& kept = kept_[n];
-    std::string right = kept.when;
-    if (!kept.clean)
-      right = fmt::format("{} - {}", word(Word::start_unclean), kept.when);
-    else
-      right = fmt::format("{}{} - {:.0f} mm³ - {}",
-                          kept.keep ? fmt::format("{} - ", word(Word::start_kept)) : "",
-                          minutes(kept.seconds), kept.removed_mm3, kept.when);
+    // of a built-in case the name on its card; what has no room beside it is in the tip
+    const std::vector<std::string> names = cases();
+    const std::string& source = kept.options.volume.source;
+    const bool built_in = std::find(names.begin(), names.end(), source) != names.end();
+    const std::string title = built_in ? name_of_case(source) : kept.title;
+    const std::string right =
+        kept.clean ? fmt::format("{} - {}", minutes(kept.seconds), kept.when) : kept.when;
+    std::string tip = title + "\n";
+    if (!kept.clean) tip += fmt::format("{} - ", word(Word::start_unclean));
+    if (kept.keep) tip += fmt::format("{} - ", word(Word::start_kept));
+    tip += fmt::format("{} - {:.0f} mm³ - {}", minutes(kept.seconds), kept.removed_mm3, kept.when);
     // the marks of a session on a case, also of one that did not come to its end
     const float beside = kept.marks ? 84 * u : 0, top = y;
-    if (row(fmt::format("##kept{}", n).c_str(), x, y, w - beside, kept.title, right, !kept.clean))
+    if (row(fmt::format("##kept{}", n).c_str(), x, y, w - beside, title, right, !kept.clean))
       choice_ = Choice{.open = {}, .go_on = kept, .marks_of = {}, .quit = false};
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip.c_str());
     if (!kept.marks) continue;
     ImGui::SetCursorScreenPos({x + w - beside + 4 * u, top});
     if (ImGui::Button(fmt::format("{}##marks{}", word(Word::start_marks), n).c_str(),

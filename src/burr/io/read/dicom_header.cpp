@@ -28,14 +28,14 @@ constexpr int kDeepest = 24;  // nesting of sequences
 using Values = std::map<Tag, std::string>;  // raw bytes of the wanted elements
 
 constexpr Tag kWanted[] = {
-    0x00020010, 0x00080005, 0x00080008, 0x00080016, 0x00080018, 0x00080032, 0x00080033, 0x00080060,
-    0x00080100, 0x00080102, 0x00080104, 0x00080119, 0x0008103E, 0x00089007, 0x00180050, 0x00180060,
-    0x00180081, 0x00180088, 0x00181060, 0x00181210, 0x00182005, 0x00189074, 0x00189082, 0x0020000D,
-    0x0020000E, 0x00200011, 0x00200012, 0x00200013, 0x00200032, 0x00200037, 0x00200052, 0x00200100,
-    0x00201041, 0x00209056, 0x00209128, 0x00209153, 0x00209156, 0x00209157, 0x00209241, 0x00280002,
-    0x00280004, 0x00280008, 0x00280010, 0x00280011, 0x00280030, 0x00280100, 0x00280101, 0x00280102,
-    0x00280103, 0x00280120, 0x00280121, 0x00281052, 0x00281053, 0x00281054, 0x00620001, 0x00620004,
-    0x00620005, 0x0062000B, 0x0062000D, 0x0062000E, 0x3004000C};
+    0x00020010, 0x00080005, 0x00080008, 0x00080016, 0x00080018, 0x00080020, 0x00080032, 0x00080033,
+    0x00080060, 0x00080100, 0x00080102, 0x00080104, 0x00080119, 0x0008103E, 0x00089007, 0x00180050,
+    0x00180060, 0x00180081, 0x00180088, 0x00181060, 0x00181210, 0x00182005, 0x00189074, 0x00189082,
+    0x0020000D, 0x0020000E, 0x00200011, 0x00200012, 0x00200013, 0x00200032, 0x00200037, 0x00200052,
+    0x00200100, 0x00201041, 0x00209056, 0x00209128, 0x00209153, 0x00209156, 0x00209157, 0x00209241,
+    0x00280002, 0x00280004, 0x00280008, 0x00280010, 0x00280011, 0x00280030, 0x00280100, 0x00280101,
+    0x00280102, 0x00280103, 0x00280120, 0x00280121, 0x00281052, 0x00281053, 0x00281054, 0x00620001,
+    0x00620004, 0x00620005, 0x0062000B, 0x0062000D, 0x0062000E, 0x3004000C};
 
 bool wanted(Tag tag) { return std::binary_search(std::begin(kWanted), std::end(kWanted), tag); }
 
@@ -503,12 +503,23 @@ bool plausible(const std::vector<std::uint8_t>& bytes, std::size_t at) {
   return group == 2 || group == 8 || group == 0x10;
 }
 
+// A date as people write it, "2019-03-07", of "20190307" or the "2019.03.07" of old files; empty: it
+// is none.
+std::string date_of(std::string text) {
+  std::erase(text, '.');
+  const bool digits = text.size() == 8 && std::all_of(text.begin(), text.end(),
+                                                      [](char c) { return c >= '0' && c <= '9'; });
+  if (!digits) return {};
+  return text.substr(0, 4) + "-" + text.substr(4, 2) + "-" + text.substr(6, 2);
+}
+
 // Copies the facts of a data set into the header.
 void take_facts(const Walker& set, DicomHeader& header) {
   const Values& top = set.top;
   header.sop_class = text_of(top, 0x00080016);
   header.sop_instance = text_of(top, 0x00080018);
   header.study = text_of(top, 0x0020000D);
+  header.study_date = date_of(text_of(top, 0x00080020));
   header.series = text_of(top, 0x0020000E);
   header.frame_of_reference = text_of(top, 0x00200052);
   header.modality = text_of(top, 0x00080060);

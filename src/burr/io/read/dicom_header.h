@@ -2,7 +2,8 @@
 // no length: everything is checked against the file size before memory is allocated. Internal to
 // io.
 //
-// It does not read the patient's name, id, date or institution.
+// It does not read the patient's name, id, birth date or institution. The date of the study is read
+// for the list of series alone (Scan::series_dates).
 // Units: mm. Frame: LPS. Thread: any. Errors: one sentence that names the file without its folder.
 #pragma once
 
@@ -61,6 +62,7 @@ struct DicomHeader {
   std::filesystem::path path;
   std::string transfer_syntax, sop_class, sop_instance, study, series, frame_of_reference, modality,
       image_type, kernel, description, photometric, rescale_type;
+  std::string study_date;  // "2019-03-07"; empty: not stated
   // Not empty: the file ends early or its structure is broken. The facts before that place are here.
   std::string damage;
   std::string unreadable;       // a number of the geometry that is none, as "Pixel Spacing \"x\""

@@ -417,11 +417,16 @@ void list_all(const Found& found, const std::vector<Volume>& volumes, Scan& scan
   if (listed > 1 && listed <= kListed) {
     const std::vector<std::size_t> studies = studies_of(found.series, volumes);
     const bool several = std::any_of(studies.begin(), studies.end(), [](auto n) { return n > 1; });
-    for (std::size_t v = 0; v < volumes.size(); ++v)
-      scan.series.push_back(one_line(found.series[volumes[v].series], volumes[v], v) +
+    for (std::size_t v = 0; v < volumes.size(); ++v) {
+      const Series& series = found.series[volumes[v].series];
+      scan.series.push_back(one_line(series, volumes[v], v) +
                             (several ? fmt::format(", study {}", studies[v]) : ""));
-    for (std::size_t n = volumes.size(); n < listed; ++n)
+      scan.series_dates.push_back(series.files[volumes[v].slices.front().file].study_date);
+    }
+    for (std::size_t n = volumes.size(); n < listed; ++n) {
       scan.series.push_back(one_line(found.segmentations[n - volumes.size()], n));
+      scan.series_dates.push_back(found.segmentations[n - volumes.size()].study_date);
+    }
   }
 }
 

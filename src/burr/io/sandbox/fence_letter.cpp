@@ -105,7 +105,7 @@ class Unpacker {
 };
 
 // both sides must agree about this, structs included
-std::string version() { return std::string("fence 4 of burr ") + base::version(); }
+std::string version() { return std::string("fence 5 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {
   switch (static_cast<Trouble>(number)) {
@@ -132,6 +132,8 @@ void pack_scan(Packer& to, const Scan& scan) {
   for (const std::string& notice : scan.notices) to.put(notice);
   to.put(static_cast<std::uint32_t>(scan.series.size()));
   for (const std::string& series : scan.series) to.put(series);
+  to.put(static_cast<std::uint32_t>(scan.series_dates.size()));
+  for (const std::string& date : scan.series_dates) to.put(date);
   to.put(static_cast<std::int32_t>(scan.series_taken));
   to.put(static_cast<std::uint32_t>(scan.questions.size()));
   for (const Question& question : scan.questions) {
@@ -170,6 +172,9 @@ void unpack_scan(Unpacker& from, Scan& scan) {
     scan.notices.push_back(from.words());
   const std::size_t series = from.count(kMostSeries);
   for (std::size_t n = 0; n < series && from.good(); ++n) scan.series.push_back(from.words());
+  for (std::size_t n = from.count(kMostSeries); n > 0 && from.good(); --n)
+    scan.series_dates.push_back(from.words());
+  from.demand(scan.series_dates.empty() || scan.series_dates.size() == series);
   scan.series_taken = from.get<std::int32_t>();
   from.demand(scan.series_taken >= 0 &&
               static_cast<std::size_t>(scan.series_taken) < std::max<std::size_t>(series, 1));

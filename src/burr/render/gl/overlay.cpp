@@ -64,11 +64,11 @@ std::vector<float> around(int width, int height) {
 }
 
 // A ring between two radii, as triangles.
+constexpr int kRingSteps = 60;
 std::vector<float> ring(float x, float y, float inner, float outer) {
-  constexpr int kSteps = 60;
   std::vector<float> xy;
-  for (int n = 0; n < kSteps; ++n) {
-    constexpr float kStep = 2 * std::numbers::pi_v<float> / kSteps;
+  for (int n = 0; n < kRingSteps; ++n) {
+    constexpr float kStep = 2 * std::numbers::pi_v<float> / kRingSteps;
     const float a = kStep * static_cast<float>(n), b = a + kStep;
     const float ax = std::cos(a), ay = std::sin(a), bx = std::cos(b), by = std::sin(b);
     xy.insert(xy.end(), {x + inner * ax, y + inner * ay, x + outer * ax, y + outer * ay,
@@ -95,6 +95,9 @@ Status Overlay::make(bool es) {
   Result<Program> inset = Program::link(es, {kFlatVertex}, {kInsetFragment});
   if (!inset) return inset.error();
   inset_ = std::move(*inset);
+  Result<Program> dark = Program::link(es, {kFlatVertex}, {kVignetteFragment});
+  if (!dark) return dark.error();
+  vignette_ = std::move(*dark);
   return fine();
 }
 
@@ -134,9 +137,9 @@ void Overlay::draw(const Scene& scene, int width, int height, int left, int top,
       2.0F / static_cast<float>(wide), -2.0F / static_cast<float>(high),
       -1.0F - 2.0F * static_cast<float>(left) / static_cast<float>(wide),
       1.0F + 2.0F * static_cast<float>(top) / static_cast<float>(high));
+  if (scene.vignette > 0) vignette(scene, width, height, clip_from_pixel);
   flat_.use();
   flat_.set("clip_from_pixel", clip_from_pixel);
-  if (scene.vignette > 0) vignette(scene, width, height);
   if (scene.round) quads(around(width, height), {0, 0, 0, 1});
   insets(scene, clip_from_pixel, size);
   flat_.use();
@@ -145,19 +148,19 @@ void Overlay::draw(const Scene& scene, int width, int height, int left, int top,
   glDisable(GL_BLEND);
 }
 
-// Steps too small to be seen; they begin where the field of a microscope ends.
-void Overlay::vignette(const Scene& scene, int width, int height) {
-  constexpr int kRings = 56;
+// It begins where the field of a microscope ends.
+void Overlay::vignette(const Scene& scene, int width, int height,
+                       const Eigen::Vector4f& clip_from_pixel) {
   const float x = 0.5F * static_cast<float>(width), y = 0.5F * static_cast<float>(height);
   const float from = 0.9F * std::min(x, y), to = std::hypot(x, y);
-  for (int n = 0; n < kRings; ++n) {
-    const auto at = [&](int k) {
-      return from + (to - from) * static_cast<float>(k) / static_cast<float>(kRings);
-    };
-    const float part = (static_cast<float>(n) + 0.5F) / kRings;
-    const float dark = static_cast<float>(scene.vignette) * part * part * (3 - 2 * part);
-    quads(ring(x, y, at(n), at(n + 1)), {0, 0, 0, dark});
-  }
+  vignette_.use();
+  vignette_.set("clip_from_pixel", clip_from_pixel);
+  vignette_.set("middle", Eigen::Vector2f(x, y));
+  vignette_.set("reach", Eigen::Vector2f(from, to));
+  vignette_.set("darkest", static_cast<float>(scene.vignette));
+  // the chords of the ring stay inside and outside of what is darkened
+  load(ring(x, y, 0.99F * from, 1.01F * to));
+  glDrawArrays(GL_TRIANGLES, 0, 6 * kRingSteps);
 }
 
 void Overlay::insets(const Scene& scene, const Eigen::Vector4f& clip_from_pixel, float size) {

@@ -19,7 +19,7 @@ class Overlay {
  private:
   void load(const std::vector<float>& xy);
   void quads(const std::vector<float>& xy, const Eigen::Vector4f& colour);
-  void vignette(const Scene& scene, int width, int height);
+  void vignette(const Scene& scene, int width, int height, const Eigen::Vector4f& clip_from_pixel);
   void insets(const Scene& scene, const Eigen::Vector4f& clip_from_pixel, float size);
 
   // an inset's picture on the GPU
@@ -27,7 +27,7 @@ class Overlay {
     std::shared_ptr<const Image> image;
     Texture texture;
   };
-  Program flat_, inset_;
+  Program flat_, inset_, vignette_;
   std::vector<Sent> sent_;
   Buffer vertices_;
   VertexArray array_;

@@ -504,6 +504,18 @@ uniform vec4 place;  // left, top, width, height  [pixel]
 out vec4 result;
 void main() { result = vec4(texture(picture, (pixel - place.xy) / place.zw).rgb, 1.0); }
 )";
+// Darker with the distance from the middle, computed for each pixel: rings of one shade each were seen
+// as stripes on large, even faces.
+inline constexpr const char* kVignetteFragment = R"(
+in vec2 pixel;
+uniform vec2 middle, reach;  // where it begins, where it is darkest  [pixel]
+uniform float darkest;       // 0..1
+out vec4 result;
+void main() {
+  float part = clamp((distance(pixel, middle) - reach.x) / (reach.y - reach.x), 0.0, 1.0);
+  result = vec4(0.0, 0.0, 0.0, darkest * part * part * (3.0 - 2.0 * part));
+}
+)";
 inline constexpr const char* kFlatFragment = R"(
 uniform vec4 colour;
 out vec4 result;
