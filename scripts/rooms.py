@@ -38,7 +38,7 @@ ALLOWED = {
     "record": "tick scenario device haptics edit volume tool rt",
     "sim": "tick record device haptics thermal people volume tool rt",
     "fit": "record",
-    "metrics": "record tick volume tool rt",
+    "metrics": "record tick thermal volume tool rt",
     "scoring": "metrics record rt scenario volume",
     "workshop": "sim tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
 }

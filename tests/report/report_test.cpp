@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "report/advice.h"
+#include "report/evidence_strip.h"
 #include "report/report_page.h"
 #include "report/report_words.h"
 #include "report/self_marks.h"
@@ -184,6 +188,142 @@ TEST(ReportWords, ExplainEveryMeasure) {
     EXPECT_FALSE(measure_word(measure.name).empty()) << measure.name;
 }
 
+// ---- evidence as a strip of time
+
+constexpr const char* kManner = R"([rubric]
+name = "m"
+version = 1
+case = "c"
+[[item]]
+id = "burr"
+part = "process"
+measure = "burr_choice"
+say = "b"
+[[item]]
+id = "order"
+part = "process"
+measure = "order"
+say = "o"
+[[item]]
+id = "coolant"
+part = "process"
+measure = "coolant"
+say = "c"
+[[item]]
+id = "region"
+part = "product"
+measure = "removed"
+region = "x"
+say = "r"
+[[item]]
+id = "strokes"
+part = "process"
+measure = "strokes"
+say = "s"
+)";
+
+// 180 s at one sample a second: the first 60 s cut far away with a large dry burr, the next 60 s near
+// with it, the last 60 s near with a diamond and coolant.
+Scored manner() {
+  Scored scored;
+  auto rubric = scoring::parse_rubric(kManner, "m.toml");
+  EXPECT_TRUE(rubric);
+  if (rubric) scored.judged.rubric = std::move(*rubric);
+  for (const scoring::Item& item : scored.judged.rubric.items)
+    scored.score.outcomes.push_back(with(item.id.c_str(), Verdict::met, 1));
+  scoring::Shown& shown = scored.score.shown;
+  for (int n = 0; n < 180; ++n) {
+    metrics::TrackSample sample;
+    sample.t = n + 0.5;
+    sample.raw = {1e-3 * n, 0, 0};
+    sample.removed = 1e-12;
+    sample.radius = 2e-3;
+    sample.d = n < 60 ? 5e-3 : 0.5e-3;
+    sample.diamond = sample.irrigated = n >= 120;
+    shown.track.samples.push_back(sample);
+  }
+  metrics::TrackSample last;
+  last.t = 180;
+  shown.track.samples.push_back(last);
+  shown.track.begins = {0};
+  shown.regions["x"] = metrics::in_ball({90e-3, 0, 0}, 7.5e-3);
+  return scored;
+}
+
+// The first moment, the last, and the tone of each span.
+std::vector<std::tuple<int, int, Tone>> rounded(const ReportStrip& strip) {
+  std::vector<std::tuple<int, int, Tone>> spans;
+  for (const ReportStrip::Span& one : strip.spans)
+    spans.emplace_back(static_cast<int>(std::lround(one.from_s)),
+                       static_cast<int>(std::lround(one.to_s)), one.tone);
+  return spans;
+}
+using Spans = std::vector<std::tuple<int, int, Tone>>;
+
+TEST(EvidenceStrip, ShowsWhichBurrCutNearAndNothingOfWhatWasFar) {
+  EXPECT_EQ(rounded(strip_of(manner(), 0)), (Spans{{60, 120, Tone::bad}, {120, 180, Tone::good}}));
+}
+
+TEST(EvidenceStrip, ShowsCuttingWithAndWithoutCoolant) {
+  EXPECT_EQ(rounded(strip_of(manner(), 2)), (Spans{{0, 120, Tone::bad}, {120, 180, Tone::good}}));
+}
+
+TEST(EvidenceStrip, ShowsTheStepsInTheirOrderAndWhichWasTooEarly) {
+  Scored scored = manner();
+  scored.score.shown.steps = {{10, 2, true}, {90, 1, false}, {150, 3, false}};
+  const ReportStrip strip = strip_of(scored, 1);
+  EXPECT_EQ(rounded(strip),
+            (Spans{{10, 10, Tone::bad}, {90, 90, Tone::good}, {150, 150, Tone::good}}));
+  EXPECT_EQ(strip.spans[0].name, "2");
+}
+
+TEST(EvidenceStrip, ShowsWhenTheBurrWasInTheRegion) {  // 7.5 mm of the ball and 2 mm of the burr
+  EXPECT_EQ(rounded(strip_of(manner(), 3)), (Spans{{81, 100, Tone::open}}));
+}
+
+TEST(EvidenceStrip, ShowsLongStrokesAboveShortOnesBelow) {
+  Scored scored = manner();
+  metrics::BurrStroke stroke;
+  stroke.d = 5e-3;
+  for (const auto& [begin, length] : {std::pair{10.0, 6e-3}, std::pair{50.0, 2e-3}}) {
+    stroke.begin = begin;
+    stroke.end = begin + 1;
+    stroke.length = length;
+    scored.score.shown.strokes.push_back(stroke);
+  }
+  stroke.d = 1e-3;  // near: the item does not ask for it
+  stroke.begin = 100;
+  scored.score.shown.strokes.push_back(stroke);
+  EXPECT_EQ(rounded(strip_of(scored, 4)), (Spans{{10, 11, Tone::good}, {50, 51, Tone::bad}}));
+}
+
+TEST(EvidenceStrip, SaysWhyThereIsNoAnswer) {
+  Scored scored = manner();
+  scored.score.outcomes[1].verdict = Verdict::not_assessable;
+  scored.score.outcomes[1].reason = "the recording names fewer than two steps as done";
+  const ReportStrip strip = strip_of(scored, 1);
+  EXPECT_TRUE(strip.open);
+  EXPECT_EQ(strip.caption, "The recording names fewer than two steps as done.");
+  EXPECT_NE(strip_html(strip).find("class=\"strip why\""), std::string::npos);
+}
+
+// Whatever an item is about, and whatever became of it.
+TEST(EvidenceStrip, IsThereForEveryMeasure) {
+  for (const scoring::Measure& measure : scoring::measures())
+    for (const Verdict verdict : {Verdict::met, Verdict::unmet, Verdict::not_assessable}) {
+      Scored scored = manner();
+      scoring::Item& item = scored.judged.rubric.items[0];
+      item.how = &measure;
+      for (const scoring::Limit& limit : measure.limits)
+        item.limits[limit.field] = limit.preset * limit.unit;
+      scored.score.outcomes[0].verdict = verdict;
+      scored.score.outcomes[0].reason = verdict == Verdict::met ? "" : "a reason";
+      const ReportStrip strip = strip_of(scored, 0);
+      EXPECT_FALSE(strip.caption.empty()) << measure.name;
+      EXPECT_EQ(strip.seconds, 180) << measure.name;
+    }
+}
+
 TEST(ReportPage, ShowsEveryTextAsText) {
   const std::string nasty = "<b onload=\"x\">&'\x01";
   Report report;
@@ -195,7 +335,10 @@ TEST(ReportPage, ShowsEveryTextAsText) {
   item.id = item.text = item.figures = item.default_word = item.beside_figures = nasty;
   item.remarks = {nasty};
   item.pictures = {{"png", nasty, 1, 1}};
-  report.parts = {{nasty, nasty, nasty, nasty, {item}}};
+  ReportItem without = item;
+  without.pictures.clear();
+  without.strip = ReportStrip{1, {{0, 1, Tone::bad, nasty}}, nasty, true};
+  report.parts = {{nasty, nasty, nasty, nasty, {item, without}}};
   report.next = {{nasty, nasty}};
   report.sides_legend = report.spots_legend = {{nasty, nasty}};
   report.sides = {{nasty, {{"png", nasty, 1, 1}}}};
@@ -206,7 +349,7 @@ TEST(ReportPage, ShowsEveryTextAsText) {
   line.events = {{0.5, nasty, Tone::bad}};
   report.lines = {line};
   report.small = report.commands = {nasty};
-  report.hashes = {{nasty, nasty}};
+  report.hashes = report.figures = {{nasty, nasty}};
   const std::string page = page_of(report);
   EXPECT_EQ(page.find("<b onload"), std::string::npos);
   EXPECT_EQ(page.find('\x01'), std::string::npos);

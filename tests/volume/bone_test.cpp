@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "burr/volume/copy_of_bone.h"
 #include "support/rt_guard.h"
 
 namespace burr::volume {
@@ -55,6 +56,31 @@ TEST(Bone, TheReserveEndsWithARefusalNotWithAnAllocation) {
   EXPECT_GE(bone->ensure_slot(4), 0);
   EXPECT_EQ(bone->ensure_slot(5), kNoSlot);
   EXPECT_EQ(bone->ensure_slot(3), bone->ensure_slot(3));
+}
+
+TEST(CopyOfBone, IsTheSameBoneAndHasALifeOfItsOwn) {
+  Grid grid;
+  grid.size = {20, 17, 9};
+  std::vector<Field> field(20 * 17 * 9);
+  std::vector<TissueId> tissue(field.size(), 1);
+  std::vector<std::int16_t> intensity(field.size());
+  for (std::size_t n = 0; n < field.size(); ++n) {
+    field[n] = static_cast<Field>(n < 1000 ? kSolid : 11 * n);
+    tissue[n] = static_cast<TissueId>(n % 3);
+    intensity[n] = static_cast<std::int16_t>(n);
+  }
+  const auto bone = bone_from_arrays(grid, {}, field, tissue, intensity, 2);
+  const auto copy = copy_of(*bone);
+  EXPECT_EQ(copy->content_hash(), bone->content_hash());
+  EXPECT_EQ(copy->free_slots(), bone->free_slots());
+  EXPECT_EQ(copy->memory_bytes(), bone->memory_bytes());
+  EXPECT_EQ(copy->intensity(7, 5, 3), bone->intensity(7, 5, 3));
+  const Field was = bone->field(7, 0, 0);
+  BrickField content{};
+  content.voxel[7] = 123;
+  copy->write_brick(0, content);
+  EXPECT_EQ(copy->field(7, 0, 0), 123);
+  EXPECT_EQ(bone->field(7, 0, 0), was);
 }
 
 TEST(Bone, HashSeesTheFieldAndForgetsEmptyBricks) {

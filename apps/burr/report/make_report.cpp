@@ -14,6 +14,7 @@
 #include "burr/base/version.h"
 #include "burr/scenario/case.h"
 #include "report/advice.h"
+#include "report/evidence_strip.h"
 #include "report/report_pictures.h"
 #include "report/report_words.h"
 #include "report/time_line.h"
@@ -217,6 +218,7 @@ ReportItem item_of(const Scored& scored, std::size_t n, const ReportSettings& se
   out.figures = figures_of(outcome);
   if (!item.calibrated && outcome.value) out.default_word = word(Word::report_default);
   out.scale = scale_of(outcome);
+  out.strip = strip_of(scored, n);
   if (settings.beside != nullptr) {
     out.beside = mark_of(settings.beside->score.outcomes[n]);
     out.beside_figures = figures_of(settings.beside->score.outcomes[n]);
@@ -304,6 +306,39 @@ std::vector<TextPair> joined(std::vector<TextPair> a, const std::vector<TextPair
   return a;
 }
 
+std::vector<TextPair> figures_of(const Scored& scored) {
+  std::vector<TextPair> rows;
+  if (!scored.score.shown.figures) return rows;
+  const scoring::Figures& f = *scored.score.shown.figures;
+  const auto row = [&](Word name, bool known, std::string value) {
+    rows.emplace_back(word(name), known ? std::move(value) : word(Word::report_verdict_open));
+  };
+  const auto text = [](const char* format, double value) {
+    return fmt::format(fmt::runtime(format), value);
+  };
+  row(Word::figure_cutting, true,
+      fmt::format("{}:{:02} min", static_cast<int>(f.times.cutting) / 60,
+                  static_cast<int>(f.times.cutting) % 60));
+  row(Word::figure_way, true, text("{:.1f} m", f.paths.all));
+  row(Word::figure_strokes, f.strokes.ok(),
+      f.strokes ? say(Word::figure_strokes_of, f.strokes->rate, 1e3 * f.strokes->median_length)
+                : "");
+  const metrics::Economy& economy = f.economy;
+  row(Word::figure_density, economy.strokes_per_volume.ok(),
+      economy.strokes_per_volume ? text("{:.0f}", 1e-6 * *economy.strokes_per_volume) : "");
+  row(Word::figure_per_way, economy.per_path.ok(),
+      economy.per_path ? text("{:.0f} mm³", 1e9 * *economy.per_path) : "");
+  row(Word::figure_outside, economy.outside_share.ok(),
+      economy.outside_share ? text("{:.0f} %", 100 * *economy.outside_share) : "");
+  row(Word::figure_shaft, f.shaft.ok(), f.shaft ? text("{:.1f} s", f.shaft->seconds) : "");
+  row(Word::figure_dwell, f.dwell.ok(), f.dwell ? text("{:.1f} s", f.dwell->longest) : "");
+  row(Word::figure_slowed, f.motor.ok(),
+      f.motor ? text("{:.0f} %", 100 * f.motor->slowed / f.motor->contact) : "");
+  row(Word::figure_reaction, f.reaction.ok(),
+      f.reaction ? text("{:.2f} s", f.reaction->median) : "");
+  return rows;
+}
+
 // What both kinds of page have.
 Report common(const Scored& scored, const ReportSettings& settings) {
   Report report;
@@ -317,6 +352,7 @@ Report common(const Scored& scored, const ReportSettings& settings) {
   report.sides_legend = sides_legend();
   report.spots_legend = spots_legend();
   report.lines.push_back(time_line_of(scored));
+  report.figures = figures_of(scored);
   if (!scored.judged.lesson.approach.empty())
     report.towards = scored.judged.lesson.approach.front();
   report.small = small_of(scored);
@@ -388,6 +424,7 @@ Result<Report> comparison(Scored& a, Scored& b, const ReportSettings& settings,
   report.lines.front().whose = "A: " + first;
   report.lines.back().whose = "B: " + second;
   report.head = joined(std::move(report.head), head_of(b));
+  report.figures = joined(std::move(report.figures), figures_of(b));
   report.head.insert(report.head.begin(), {{"A", first}, {"B", second}});
   report.hashes = joined(hashes_of(a, file_hash(a.judged.player->path())),
                          hashes_of(b, file_hash(b.judged.player->path())));

@@ -37,6 +37,19 @@ struct ReportScale {
   bool at_least = true;  // met: at or above the threshold
 };
 
+// When what an item judges happened (evidence_strip.h).
+struct ReportStrip {
+  double seconds = 0;  // of the line
+  struct Span {
+    double from_s = 0, to_s = 0;
+    Tone tone = Tone::open;  // good: above the line, bad: below it, open: on it
+    std::string name;        // short; empty: none
+  };
+  std::vector<Span> spans = {};
+  std::string caption = {};
+  bool open = false;  // of an item that could not be judged
+};
+
 struct ReportItem {
   std::string id, text;  // text: what is to be done
   bool gate = false;
@@ -50,6 +63,7 @@ struct ReportItem {
   std::optional<ReportScale> scale;  // none: there is no number
   std::vector<std::string> remarks;  // why, borderline, the moment, what the measure means
   std::vector<ReportPicture> pictures;
+  std::optional<ReportStrip> strip;
 };
 
 struct ReportPart {
@@ -116,6 +130,7 @@ struct Report {
   std::string you, machine, beside;  // names of the columns; beside: empty without one
   Legend sides_legend, spots_legend;
   std::vector<ReportSides> sides;
+  std::vector<TextPair> figures;  // that earn nothing
   std::vector<ReportLine> lines;
   std::vector<std::string> small;            // sentences
   math::Vec3 towards = math::Vec3::UnitZ();  // from the bone to the surgeon; unit

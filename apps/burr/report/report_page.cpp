@@ -6,6 +6,7 @@
 
 #include "burr/base/base64.h"
 #include "burr/base/markup.h"
+#include "report/evidence_strip.h"
 #include "report/time_line.h"
 #include "window/shell/words.h"
 
@@ -21,18 +22,19 @@ p { margin: .3em 0 } .soft { color: #555 } .warn { border-left: 4px solid #b04a0
 .head { display: grid; grid-template-columns: repeat(3, 1fr); gap: .15em 1.5em; margin: .6em 0 } .head dt, .head dd { display: inline; margin: 0 } .head dt { color: #555 } .head dt:after { content: ": " } .head dd { overflow-wrap: anywhere }
 table { border-collapse: collapse; width: 100% } td, th { text-align: left; vertical-align: top; padding: .3em .5em; border-top: 1px solid #ddd }
 th { color: #555; font-weight: 600; font-size: .9em } thead { display: table-header-group } tr { break-inside: avoid }
-.mark { white-space: nowrap; font-weight: 600 } th.m { width: 6em } .good { color: #00694c } .bad { color: #b04a00 } .open { color: #0060a0 } .none { color: #555 }
-.id { color: #777; font-size: .85em; white-space: nowrap } .small { font-size: .88em } .item { width: 27% } th.v { width: 54% }
+.mark { white-space: nowrap; font-weight: 600 } th.m { width: 7.2em } .good { color: #00694c } .bad { color: #b04a00 } .open { color: #0060a0 } .none { color: #555 }
+.id { color: #777; font-size: .85em; white-space: nowrap } .small { font-size: .88em } .item { width: 25% } th.v { width: 60% }
 .tag { border: 1px solid #b04a00; color: #b04a00; border-radius: .6em; padding: 0 .4em; font-size: .8em; white-space: nowrap }
-.default { color: #777; font-size: .85em; font-style: italic } .note { color: #555 }
+.default { color: #777; font-size: .85em; font-style: italic; white-space: nowrap } .note { color: #555 }
 figure { display: inline-block; margin: .2em .4em .2em 0; vertical-align: top } figcaption { font-size: .82em; color: #555 } img { display: block; max-width: 100%; height: auto }
-.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: .5em } .sides figure { margin: 0 } .proof { float: right; margin-left: .6em } .proof figure { width: 180px }
+.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: .5em } .sides figure { margin: 0 } .proof { float: right; margin-left: .8em; width: 180px } .proof > svg { display: block } .proof figure { width: 180px; margin: .1em 0 }
+.strip svg { display: block } .why { border-left: 3px solid #0060a0; padding-left: 5px; box-sizing: border-box } .why svg { width: 100% }
 .legend span { display: inline-block; margin-right: 1.2em; font-size: .88em } .legend i { display: inline-block; width: .9em; height: .9em; border: 1px solid #777; margin-right: .35em; vertical-align: -.1em }
 svg { max-width: 100%; height: auto; vertical-align: middle } .totals { display: grid; grid-template-columns: 1fr 1fr; gap: .3em 2em } .totals b { font-size: 1.15em }
 ol { margin: .3em 0; padding-left: 1.5em } code { font-family: "DejaVu Sans Mono", monospace; font-size: .9em; overflow-wrap: anywhere }
 @page { size: A4; margin: 12mm }
-@media print { body { font-size: 8.4pt; line-height: 1.28; margin: 0; padding: 0; max-width: none } h2 { margin: .8em 0 .25em; break-after: avoid }
- td, th { padding: .16em .35em } .proof figure { width: 30mm } figure, svg, .warn, .whole { break-inside: avoid } .remarks p { margin: .1em 0 }
+@media print { body { font-size: 8pt; line-height: 1.22; margin: 0; padding: 0; max-width: none } h2 { margin: .8em 0 .25em; break-after: avoid }
+ td, th { padding: .12em .35em } .proof, .proof figure { width: 36mm } .proof img { width: 28mm; height: auto } figcaption { line-height: 1.1 } figure, svg, .warn, .whole { break-inside: avoid } .remarks p { margin: .1em 0 }
  * { -webkit-print-color-adjust: exact; print-color-adjust: exact } }
 )";
 
@@ -89,7 +91,7 @@ std::string legend_html(const Legend& legend) {
 
 // From 0 to the end: the good side is green, the threshold a line, the value a dot with its error.
 std::string scale_html(const ReportScale& scale) {
-  constexpr double kWide = 130;
+  constexpr double kWide = 180;
   const auto x = [&](double value) {
     return 3 + (kWide - 6) * std::clamp(value / scale.end, 0.0, 1.0);
   };
@@ -108,17 +110,21 @@ std::string scale_html(const ReportScale& scale) {
       x(scale.value), good ? "#00694c" : "#b04a00");
 }
 
+std::string pairs_html(const std::vector<TextPair>& pairs) {
+  std::string html = "<dl class=\"head\">\n";
+  for (const auto& [name, value] : pairs)
+    html +=
+        fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", markup_text(name), markup_text(value));
+  return html + "</dl>\n";
+}
+
 std::string head_html(const Report& report) {
   std::string html = fmt::format("<h1>{}</h1>\n<p class=\"soft\">{}</p>\n",
                                  markup_text(report.title), markup_text(report.no_patient));
   if (!report.unfinished.empty())
     html +=
         fmt::format("<p class=\"warn\" id=\"unfinished\">{}</p>\n", markup_text(report.unfinished));
-  html += "<dl class=\"head\">\n";
-  for (const auto& [name, value] : report.head)
-    html +=
-        fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", markup_text(name), markup_text(value));
-  return html + "</dl>\n";
+  return html + pairs_html(report.head);
 }
 
 std::string safety_html(const Report& report) {
@@ -169,6 +175,15 @@ std::string next_html(const Report& report) {
   return html + "</ol>\n";
 }
 
+// The value on its line, and what it was taken from: pictures, or a strip of time where there is none.
+std::string proof_html(const ReportItem& item) {
+  std::string html;
+  if (item.scale) html += scale_html(*item.scale);
+  for (const ReportPicture& picture : item.pictures) html += figure_html(picture);
+  if (item.strip && item.pictures.empty()) html += strip_html(*item.strip);
+  return html.empty() ? html : "<div class=\"proof\">\n" + html + "</div>";
+}
+
 std::string item_html(const Report& report, const ReportItem& item) {
   std::string html = fmt::format(
       "<tr id=\"item-{}\"><td class=\"item\">{} <span class=\"id\">{}</span>{}</td>\n",
@@ -179,20 +194,18 @@ std::string item_html(const Report& report, const ReportItem& item) {
   if (report.has_self) html += "<td>" + mark_html(item.self) + "</td>";
   html += "<td>" + mark_html(item.machine) + "</td>";
   if (!report.beside.empty()) html += "<td>" + mark_html(item.beside) + "</td>";
-  html += "<td class=\"remarks\">";
-  if (!item.pictures.empty()) html += "<div class=\"proof\">\n";
-  for (const ReportPicture& picture : item.pictures) html += figure_html(picture);
-  if (!item.pictures.empty()) html += "</div>";
+  html += "<td class=\"remarks\">" + proof_html(item);
   if (!item.figures.empty())
-    html += fmt::format("<p>{} {} <span class=\"default\">{}</span></p>",
-                        item.scale ? scale_html(*item.scale) : "", markup_text(item.figures),
+    html += fmt::format("<p>{} <span class=\"default\">{}</span></p>", markup_text(item.figures),
                         markup_text(item.default_word));
   if (!item.beside_figures.empty())
     html += fmt::format("<p class=\"soft\">{}: {}</p>", markup_text(report.beside),
                         markup_text(item.beside_figures));
   if (!item.remarks.empty()) {
     html += "<p class=\"note small\">";
-    for (const std::string& remark : item.remarks) html += markup_text(remark) + " ";
+    for (const std::string& remark : item.remarks)
+      if (!item.strip || remark != item.strip->caption || !item.pictures.empty())
+        html += markup_text(remark) + " ";
     html += "</p>";
   }
   return html + "</td></tr>\n";
@@ -263,6 +276,12 @@ std::string lines_html(const Report& report) {
   return html;
 }
 
+std::string figures_html(const Report& report) {
+  if (report.figures.empty()) return {};
+  return fmt::format("<div class=\"whole\"><h2>{}</h2>\n{}</div>\n",
+                     markup_text(word(Word::report_figures)), pairs_html(report.figures));
+}
+
 std::string small_html(const Report& report) {
   std::string html = fmt::format("<h2>{}</h2>\n<div class=\"small soft\" id=\"small\">\n",
                                  markup_text(word(Word::report_small)));
@@ -286,8 +305,8 @@ std::string page_of(const Report& report) {
              "</style></head>\n<body>\n",
              markup_text(report.language), markup_text(report.title), kStyle) +
          head_html(report) + safety_html(report) + totals_html(report) + next_html(report) +
-         items_html(report) + sides_html(report) + lines_html(report) + small_html(report) +
-         "</body></html>\n";
+         items_html(report) + sides_html(report) + lines_html(report) + figures_html(report) +
+         small_html(report) + "</body></html>\n";
 }
 
 }  // namespace burr::app

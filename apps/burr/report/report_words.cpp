@@ -19,10 +19,12 @@ constexpr std::array kValues = {
     Word::what_too_deep,  Word::what_too_shallow, Word::what_too_wide,   Word::what_too_narrow,
     Word::what_plane_off, Word::what_plane_angle, Word::what_face,       Word::what_floor,
     Word::what_rim,       Word::what_clear,       Word::what_stroke_far, Word::what_stroke,
-    Word::what_along,     Word::what_coolant,     Word::what_touched,    Word::what_order,
-    Word::what_divided,   Word::what_axis_tilt,   Word::what_screw_out,  Word::what_screw_in};
+    Word::what_along,     Word::what_coolant,     Word::what_outside,    Word::what_shaft,
+    Word::what_dwell,     Word::what_slowed,      Word::what_reaction,   Word::what_touched,
+    Word::what_order,     Word::what_divided,     Word::what_axis_tilt,  Word::what_screw_out,
+    Word::what_screw_in};
 
-constexpr std::array<std::pair<std::string_view, Word>, 34> kMeasures = {
+constexpr std::array<std::pair<std::string_view, Word>, 39> kMeasures = {
     {{"identified", Word::explain_identified},
      {"skeletonised", Word::explain_skeletonised},
      {"intact_solid", Word::explain_intact_solid},
@@ -56,7 +58,12 @@ constexpr std::array<std::pair<std::string_view, Word>, 34> kMeasures = {
      {"cavity_outline", Word::explain_cavity_outline},
      {"strokes", Word::explain_strokes},
      {"stroke_direction", Word::explain_stroke_direction},
-     {"coolant", Word::explain_coolant}}};
+     {"coolant", Word::explain_coolant},
+     {"economy", Word::explain_economy},
+     {"shaft", Word::explain_shaft},
+     {"dwell", Word::explain_dwell},
+     {"motor_load", Word::explain_motor_load},
+     {"reaction", Word::explain_reaction}}};
 
 const char* verdict_word(Verdict verdict) {
   switch (verdict) {

@@ -6,6 +6,7 @@
 
 #include "burr/base/printable.h"
 #include "burr/scenario/open_lesson.h"
+#include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recording.h"
 
@@ -68,12 +69,11 @@ Result<Scored> scored(Judged judged, const scenario::Recipe& volume, Progress& p
   record::Player& player = *judged.player;
   auto before = workshop::bone_of(player, volume, progress);
   if (!before) return before.error();
-  auto after = workshop::bone_of(player, volume, progress);
-  if (!after) return after.error();
-  if (const Status there = player.bone_at(player.seconds(), **after); !there) return there.error();
-  auto score = scoring::score(judged.rubric, judged.lesson, **before, **after, &player, progress);
+  auto after = volume::copy_of(**before);
+  if (const Status there = player.bone_at(player.seconds(), *after); !there) return there.error();
+  auto score = scoring::score(judged.rubric, judged.lesson, **before, *after, &player, progress);
   if (!score) return score.error();
-  return Scored{std::move(judged), std::move(*before), std::move(*after), std::move(*score)};
+  return Scored{std::move(judged), std::move(*before), std::move(after), std::move(*score)};
 }
 
 }  // namespace burr::app

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/math/sums.h"
+#include "burr/rt/flags.h"
 
 namespace burr::metrics {
 namespace {
@@ -12,6 +13,13 @@ bool usable(const tick::TickRow& row) {
   return row.contact.proxy.allFinite() && row.contact.normal.allFinite() &&
          row.contact.force.allFinite() && row.hand.world_from_tool.finite() &&
          std::isfinite(row.ledger.removed) && std::isfinite(row.spindle_rad_s);
+}
+
+// The session began with the method of touch that feels the shaft.
+bool feels_shaft(const record::SessionInfo& info) {
+  constexpr double kShaftMethod = 7;  // of docs/recording.md
+  const auto found = info.numbers.find("touch_method");
+  return found != info.numbers.end() && found->second == kShaftMethod;
 }
 
 }  // namespace
@@ -33,6 +41,14 @@ bool MomentMaker::make(const tick::TickRow& row, bool gap, Moment& moment) {
   moment.turning =
       std::abs(row.spindle_rad_s) > kTurning * std::max(std::abs(row.tool.full_speed), 1.0);
   moment.gap = gap;
+  moment.stalled = (row.contact.flags & rt::kFlagStalled) != 0;
+  moment.shaft_rests = (row.contact.flags & rt::kFlagShaft) != 0;
+  moment.shaft_felt = shaft_felt_ || row.tool.number >= 0 || moment.shaft_rests;
+  moment.speed = std::abs(row.spindle_rad_s);
+  moment.asked_speed = row.hand.pedal * std::abs(row.tool.full_speed);
+  moment.torque = row.cutting_nm;
+  moment.power = row.cutting_w;
+  moment.twist = math::norm(row.contact.unsent_torque);
   moment.tool = row.tool;
   const double rise = removed_ ? row.ledger.removed - *removed_ : 0;
   moment.removed = gap ? 0 : std::max(0.0, rise);
@@ -40,6 +56,9 @@ bool MomentMaker::make(const tick::TickRow& row, bool gap, Moment& moment) {
   removed_ = row.ledger.removed;
   return true;
 }
+
+MomentReader::MomentReader(record::Player& player)
+    : maker_(player.info().rate_hz, feels_shaft(player.info())), steps_(player.steps()) {}
 
 bool MomentReader::next(Moment& moment) {
   bool gap = false;

@@ -33,8 +33,15 @@ struct Moment {
   double force = 0;                        // size of the force on the hand [N]
   bool touching = false;
   bool turning = false;  // spindle above kTurning of its full speed
+  bool stalled = false;  // the bone holds the spindle
   bool gap = false;      // ticks before this one are missing
-  double removed = 0;    // in this tick [m^3]; 0 after a gap
+  // The shaft rests on bone, as the session felt it; false in every tick: shaft_felt tells why.
+  bool shaft_rests = false;
+  bool shaft_felt = false;            // a shaft that can touch is in the hand
+  double removed = 0;                 // in this tick [m^3]; 0 after a gap
+  double speed = 0, asked_speed = 0;  // of the spindle, without its sign; of the pedal [rad/s]
+  double torque = 0, power = 0;       // of the bone on the burr [N m]; that goes into the bone [W]
+  double twist = 0;                   // torque of the contact that the hand did not get [N m]
   tool::ToolState tool;
   [[nodiscard]] bool cutting() const { return removed > 0; }
   // False: the recording does not say how large the burr is; nothing then has a distance to it.
@@ -44,7 +51,9 @@ struct Moment {
 // Ticks in order become moments.
 class MomentMaker {
  public:
-  explicit MomentMaker(double rate_hz) : rate_hz_(rate_hz) {}
+  // shaft_felt: the session's round burrs touch with their shafts (--touch shaft).
+  explicit MomentMaker(double rate_hz, bool shaft_felt = false)
+      : rate_hz_(rate_hz), shaft_felt_(shaft_felt) {}
   // False: the tick is unusable. The first tick counts as one that removes nothing.
   [[nodiscard]] bool make(const tick::TickRow& row, bool gap, Moment& moment);
 
@@ -53,6 +62,7 @@ class MomentMaker {
 
  private:
   double rate_hz_;
+  bool shaft_felt_;
   std::optional<double> removed_;  // ledger of the tick before
   std::uint64_t unusable_ = 0;
   double lost_removed_ = 0;
@@ -60,8 +70,7 @@ class MomentMaker {
 
 class MomentReader {
  public:
-  explicit MomentReader(record::Player& player)
-      : maker_(player.info().rate_hz), steps_(player.steps()) {}
+  explicit MomentReader(record::Player& player);
   [[nodiscard]] bool next(Moment& moment);
   [[nodiscard]] const MomentMaker& account() const { return maker_; }
 

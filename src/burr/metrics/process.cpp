@@ -30,6 +30,9 @@ void ProcessMaker::add(const Moment& now) {
   force_.add(now, distances_.least());
   nearness_.add(now, distances_);
   choice_.add(now, distances_.least());
+  shaft_.add(now);
+  dwell_.add(now);
+  motor_.add(now);
   track_.add(now, distances_.least());
   for (IntactSoftMaker& one : soft_) one.add(now);
   for (SolidContactsMaker& one : solid_) one.add(now);
@@ -45,6 +48,9 @@ Process ProcessMaker::finish() {
     out.soft.push_back({soft_names_[n], soft_[n].finish()});
   for (std::size_t n = 0; n < solid_.size(); ++n)
     out.solid.push_back({solid_names_[n], solid_[n].finish()});
+  out.shaft = shaft_.finish();
+  out.dwell = dwell_.finish();
+  out.motor = motor_.finish();
   out.track = track_.finish();
   out.paths = paths_of(out.track);
   out.strokes = strokes_of(out.track);

@@ -14,9 +14,12 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/metrics/dwell.h"
 #include "burr/metrics/intact_soft.h"
 #include "burr/metrics/measured.h"
+#include "burr/metrics/motor_load.h"
 #include "burr/metrics/near.h"
+#include "burr/metrics/shaft.h"
 #include "burr/metrics/smoothness.h"
 #include "burr/metrics/solid_contacts.h"
 #include "burr/metrics/strokes.h"
@@ -69,7 +72,10 @@ struct Process {
     std::string name;
     Assessed<Contacts> contacts = NotAssessable{"not measured"};
   };
-  std::vector<SolidResult> solid;  // one for each solid structure
+  std::vector<SolidResult> solid;                             // one for each solid structure
+  Assessed<ShaftRest> shaft = NotAssessable{"not measured"};  // as the session felt it
+  Assessed<Dwell> dwell = NotAssessable{"not measured"};
+  Assessed<MotorLoad> motor = NotAssessable{"not measured"};
   Track track;
   std::vector<BurrStroke> strokes;
   std::vector<Move> moves;
@@ -94,6 +100,9 @@ class ProcessMaker {
   ForceNearMaker force_;
   NearnessMaker nearness_;
   BurrChoiceMaker choice_;
+  ShaftRestMaker shaft_;
+  DwellMaker dwell_;
+  MotorLoadMaker motor_;
   TrackMaker track_;
   std::vector<std::string> soft_names_;
   std::vector<IntactSoftMaker> soft_;

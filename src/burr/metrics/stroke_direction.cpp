@@ -9,30 +9,35 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kNear = 3e-3, kAlong = 0.7;  // [m], cosine
+constexpr double kNear = 3e-3;  // [m]
 
 }  // namespace
+
+std::optional<double> along(const BurrStroke& stroke, const Course& course) {
+  if (!(stroke.d <= kNear)) return std::nullopt;
+  const Vec3 chord = math::normalized(Vec3(stroke.to - stroke.from));
+  return std::abs(math::dot(chord, course.direction(0.5 * (stroke.from + stroke.to))));
+}
 
 Assessed<StrokeDirection> stroke_direction(const std::vector<BurrStroke>& strokes,
                                            const Course& course) {
   StrokeDirection out;
   if (course.points.size() < 2) return NotAssessable{"the tube has no course"};
-  double sum = 0, along = 0;
+  double sum = 0, count_along = 0;
   bool known = strokes.empty();
   for (const BurrStroke& one : strokes) {
     known = known || !std::isnan(one.d);
-    if (!(one.d <= kNear)) continue;
-    const Vec3 chord = math::normalized(Vec3(one.to - one.from));
-    const double cosine = std::abs(math::dot(chord, course.direction(0.5 * (one.from + one.to))));
-    sum += cosine;
-    if (cosine >= kAlong) ++along;
+    const auto cosine = along(one, course);
+    if (!cosine) continue;
+    sum += *cosine;
+    if (*cosine >= kAlong) ++count_along;
     ++out.count;
   }
   if (!known) return NotAssessable{kNoStrokeDistance};
   if (out.count < 5) return NotAssessable{"fewer than five strokes near the tube"};
   const auto count = static_cast<double>(out.count);
   out.mean = sum / count;
-  out.along_share = along / count;
+  out.along_share = count_along / count;
   return out;
 }
 

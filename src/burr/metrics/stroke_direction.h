@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "burr/metrics/course.h"
@@ -15,10 +16,15 @@
 
 namespace burr::metrics {
 
+inline constexpr double kAlong = 0.7;  // |cos| of a stroke that runs along [-]
+
+// |cos| of one stroke; none: its d is more than 3 mm or not known.
+[[nodiscard]] std::optional<double> along(const BurrStroke& stroke, const Course& course);
+
 struct StrokeDirection {
   std::size_t count = 0;
   double mean = 0;         // of |cos|
-  double along_share = 0;  // of the strokes, with |cos| >= 0.7
+  double along_share = 0;  // of the strokes, with |cos| >= kAlong
 };
 
 // Not assessable: fewer than 5 such strokes, or a course of fewer than two points.

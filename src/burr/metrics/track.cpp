@@ -42,6 +42,7 @@ void TrackMaker::add(const Moment& now, double d) {
   sum_.d = std::fmin(sum_.d, d);  // of a number and none it takes the number
   sum_.touching = sum_.touching || now.touching;
   sum_.turning = sum_.turning || now.turning;
+  sum_.irrigated = sum_.irrigated || now.tool.irrigated;
   sum_.mode = now.tool.mode;
   sum_.diamond = now.tool.kind == tool::BurrKind::diamond;
   sum_.radius = now.tool.radius;

@@ -32,6 +32,7 @@ struct TrackSample {
   double d = kNoDistance;  // the least to the critical structures; kNoDistance: not known [m]
   bool touching = false;   // in any of its ticks, as all below
   bool turning = false;
+  bool irrigated = false;
   tool::Mode mode = tool::Mode::cut;
   bool diamond = false;  // the burr of the last of its ticks
   double radius = 0;     // of that burr [m]

@@ -33,6 +33,7 @@ namespace burr::scoring {
 // An item about the manner of work; none: it is about something else.
 [[nodiscard]] std::optional<Outcome> measure_manner(const Item& item,
                                                     const metrics::Process& process,
+                                                    const Figures& figures,
                                                     const scenario::Lesson& lesson);
 // An item that the two bones decide.
 [[nodiscard]] Outcome measure_bone(const Item& item, Scene& scene);

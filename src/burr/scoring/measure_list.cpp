@@ -223,6 +223,14 @@ std::vector<Measure> measures_of_manner() {
        .part = kProcess,
        .quantity = ratio,
        .limits = {{"most", 1, 0.7, 0, 10}}},
+      {.name = "economy", .part = kProcess, .quantity = share, .limits = {{"share", 1, 0.1, 0, 1}}},
+      {.name = "shaft", .part = kProcess, .quantity = time, .limits = {{"most_s", 1, 1, -1, 3600}}},
+      {.name = "dwell", .part = kProcess, .quantity = time, .limits = {{"most_s", 1, 3, 0, 600}}},
+      {.name = "motor_load",
+       .part = kProcess,
+       .quantity = share,
+       .limits = {{"share", 1, 0.1, 0, 1}}},
+      {.name = "reaction", .part = kProcess, .quantity = time, .limits = {{"most_s", 1, 2, 0, 10}}},
       {.name = "order", .part = kProcess, .quantity = count, .limits = {{"most", 1, 0, -1, 1000}}},
   };
 }

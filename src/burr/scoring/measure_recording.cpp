@@ -21,9 +21,6 @@
 namespace burr::scoring {
 namespace {
 
-// Nearer than this a cutting burr is to be small: a rating-scale item, the numbers are defaults.
-constexpr double kNear = 1e-3, kSmallBurr = 1.5e-3;  // distance, radius [m]
-
 constexpr std::string_view kSoft = "intact_soft", kSolid = "untouched", kOrder = "order";
 
 // What the steps of the case spare, without plates of bone, which are to be thinned.
@@ -107,13 +104,30 @@ std::vector<metrics::StepMark> marks_of(const record::Player& player) {
   return marks;
 }
 
-Outcome order(const Item& item, const scenario::Lesson& lesson, const record::Player& player) {
-  const StepOrder found = step_order(lesson, marks_of(player));
+Outcome order(const Item& item, const StepOrder& found) {
   if (found.done < 2)
     return not_assessable(item, "the recording names fewer than two steps as done");
   const double most = item.limit("most"), wrong = static_cast<double>(found.wrong);
   return decided(item, {wrong <= most, true, wrong, most, 0}, "pairs of steps in the wrong order",
                  false);
+}
+
+Figures figures_of(const metrics::Process& process, Scene& scene, const record::Player& player) {
+  std::vector<std::string> regions;
+  for (const scenario::Step& step : scene.lesson().steps)
+    if (!step.region.empty() && !step.adds) regions.push_back(step.region);
+  Figures out;
+  out.times = process.times;
+  out.paths = process.paths;
+  out.strokes = metrics::figures_of(process.strokes);
+  out.economy = metrics::economy_of(process.track, process.paths.all, process.strokes.size(),
+                                    regions.empty() ? metrics::Region() : scene.regions(regions));
+  out.shaft = process.shaft;
+  out.dwell = process.dwell;
+  out.motor = process.motor;
+  out.reaction =
+      metrics::reaction_of(metrics::cues_of(player.course(), player.info().rate_hz), std::nullopt);
+  return out;
 }
 
 }  // namespace
@@ -123,7 +137,7 @@ RecordingPass::RecordingPass(const Rubric& rubric, Scene& scene, record::Player&
   const auto distance = [&](const std::string& structure) {
     return kept_.emplace_back(scene.distance(structure)).get();
   };
-  settings_.choice.near = kNear;
+  settings_.choice.near = kNearCut;
   settings_.choice.small = kSmallBurr;
   for (const std::string& name : critical(scene.lesson()))
     if (!scene.tissues(name).empty()) settings_.critical.push_back({name, distance(name)});
@@ -177,19 +191,24 @@ std::vector<Outcome> measure_recording(const Rubric& rubric, Scene& scene,
                                        Shown& shown) {
   std::vector<Outcome> out;
   const double rate_hz = player.info().rate_hz;
+  Figures figures = figures_of(process, scene, player);
+  StepOrder steps = step_order(scene.lesson(), marks_of(player));
   for (const Item& item : rubric.items) {
     if (!needs_recording(item)) continue;
     const std::string_view how = item.how->name;
-    auto manner = measure_manner(item, process, scene.lesson());
+    auto manner = measure_manner(item, process, figures, scene.lesson());
     out.push_back(manner                 ? *std::move(manner)
                   : how == kSoft         ? soft(item, process, rate_hz)
                   : how == kSolid        ? untouched(item, process, scene, rate_hz)
-                  : how == kOrder        ? order(item, scene.lesson(), player)
+                  : how == kOrder        ? order(item, steps)
                   : how == "burr_choice" ? burr_choice(item, process)
                                          : restraint(item, process, rate_hz));
   }
+  shown.figures = std::move(figures);
   shown.track = std::move(process.track);
   shown.nearness = std::move(process.nearness);
+  shown.strokes = std::move(process.strokes);
+  shown.steps = std::move(steps.steps);
   return out;
 }
 

@@ -29,8 +29,14 @@ StepOrder step_order(const scenario::Lesson& lesson, std::span<const metrics::St
   for (const metrics::StepMark& mark : marks) {
     if (mark.event != metrics::StepEvent::done || lesson.step(mark.step) == nullptr) continue;
     if (!done.insert(mark.step).second) continue;
-    for (const std::string& later : later_than(lesson, mark.step))
-      if (done.contains(later)) ++out.wrong;
+    const std::set<std::string> later = later_than(lesson, mark.step);
+    for (DoneStep& step : out.steps) {
+      if (!later.contains(lesson.steps[step.number - 1].id)) continue;
+      step.early = true;
+      ++out.wrong;
+    }
+    const auto number = static_cast<std::size_t>(lesson.step(mark.step) - lesson.steps.data());
+    out.steps.push_back({mark.t, number + 1, false});
   }
   out.done = done.size();
   return out;

@@ -6,15 +6,18 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "burr/metrics/order.h"
 #include "burr/scenario/lesson.h"
+#include "burr/scoring/shown.h"
 
 namespace burr::scoring {
 
 struct StepOrder {
   std::size_t done = 0;   // steps of the case that were declared done
   std::size_t wrong = 0;  // pairs of them, the later one done first
+  std::vector<DoneStep> steps;
 };
 
 // marks: in the order of time; steps that the case does not have are ignored.
