@@ -4,10 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 
+#include "burr/people/random_stream.h"
 #include "burr/sim/session.h"
+#include "burr/surgeon/plan.h"
 #include "burr/surgeon/surgeon.h"
 #include "burr/tool/state.h"
 #include "surgeon/surgeon_bone.h"
@@ -114,6 +118,55 @@ TEST(FillWork, WhoStopsEarlyLeavesMoreEmpty) {
   EXPECT_TRUE(early.declared);
   const Filled whole = operate(faultless(), 60, 0.3 * kMm);
   EXPECT_LT(early.share(), whole.share() - 0.05);
+}
+
+struct Planned {
+  std::unique_ptr<volume::Bone> bone = block_with_vein(0.5);
+  scenario::Lesson lesson = pad_lesson();
+  Believed believed;
+  Spare spare;
+  Filling filling;
+  Planned() {
+    NoProgress quiet;
+    auto made = Believed::make(*bone, lesson, 0, 1, quiet);
+    EXPECT_TRUE(made.ok());
+    believed = std::move(*made);
+    spare = spare_of(bone->grid(), lesson, believed, 0);
+    filling = filling_of(lesson.regions.front(), believed, spare, Vec3::UnitZ());
+  }
+};
+
+// A margin is bone that is left over a structure when bone is cut away; who fills a gap beside it must
+// only not enter it.
+TEST(FillWork, ReachesUpToWhatIsSparedAndNotIntoIt) {
+  Planned planned;
+  scenario::Shape& box = planned.lesson.regions.front().add.front();
+  box.a.at = Vec3(0, 1, -2) * kMm;  // the trough over the vein
+  box.size = Vec3(10, 8, 4) * kMm;
+  const Filling filling =
+      filling_of(planned.lesson.regions.front(), planned.believed, planned.spare, Vec3::UnitZ());
+  const Vec3 beside(0, 0, -3.2 * kMm), within(0, 0, -3.8 * kMm);  // the vein begins at -3.5 mm
+  EXPECT_LT(planned.spare.free.at(beside), 0);
+  EXPECT_GT(filling.gap.at(beside), 0.1 * kMm);
+  EXPECT_LT(filling.gap.at(within), 0);
+}
+
+// A stroke that began elsewhere on its line could begin on ground that is full already, and never come
+// down to the place.
+TEST(FillWork, AStrokeBeginsOverThePlaceThatItIsFor) {
+  const Planned planned;
+  FillWork work(*planned.bone, planned.lesson.steps.front(), planned.filling, Vec3::UnitZ(),
+                faultless(), 2 * kMm);
+  people::RandomStream random(1, 1);
+  int strokes = 0;
+  for (int n = 0; n < 20; ++n) {
+    const auto next = work.next(*planned.bone, Vec3(0, 0, 5 * kMm), {}, random);
+    if (!next) continue;
+    ++strokes;
+    const Vec3 off = next->stroke.start - next->at;
+    EXPECT_LT(std::hypot(off.x(), off.y()), 1e-9);
+  }
+  EXPECT_GT(strokes, 5);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "burr/phantom/build.h"
@@ -166,6 +167,37 @@ TEST(SurgeonHand, ATickTakesNoMemory) {
   for (int n = 0; n < 1000; ++n) static_cast<void>(hand.state(kTick));
   EXPECT_EQ(guard.allocations(), 0);
   EXPECT_EQ(guard.locks(), 0);
+}
+
+// Where the gap is full at the place that it touches, a hand that adds puts nothing there: it looks before the foot goes
+// down, however long it takes to see. Where there is room it begins to add when it has seen that.
+double first_added_s(double border, double stop_delay) {
+  FieldGrid goal = goal_above(border);
+  for (float& value : goal.value) value = -value;  // below the border there is room
+  SurgeonHand hand(steady(stop_delay), kTick, 1, Vec3(0, 0, 3 * kMm), Vec3::UnitZ());
+  hand.look_at(&goal, nullptr, true);
+  Stroke stroke = downwards(Vec3(0, 0, 1.2 * kMm));
+  stroke.idle_way = true;
+  hand.begin(stroke, kRadius);
+  double met = -1;
+  for (int n = 0; n < 1500; ++n) {
+    const device::HandState now = hand.state(kTick);
+    const double z = now.world_from_tool.p.z();
+    hand.write_force(1000 * std::max(0.0, kRadius - z) * Vec3::UnitZ());  // a surface at z = 0
+    if (z < kRadius && met < 0) met = kTick * n;
+    if (now.pedal > 0) return met < 0 ? 0 : kTick * n - met;
+  }
+  return -1;
+}
+
+TEST(SurgeonHand, WhoAddsLooksBeforeTheFootGoesDown) {
+  for (const double delay : {0.0, 0.2, 0.45}) {
+    EXPECT_EQ(first_added_s(-0.5 * kMm, delay), -1)
+        << "nothing may be added there; delay " << delay;
+    const double waits = first_added_s(3 * kMm, delay);
+    EXPECT_GE(waits, delay - 0.1);
+    EXPECT_LE(waits, delay + 0.05);
+  }
 }
 
 }  // namespace

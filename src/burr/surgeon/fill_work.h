@@ -6,7 +6,9 @@
 // surface under the deepest empty nodes, seen along the way out, at a short way from the hand; so the
 // gap fills from its floor in layers. The hand lifts where the place at which the burr touches has
 // come up to the border towards the surgeon (SurgeonHand::look_at): the floor and the walls of a gap
-// are no border for that, so they are the gap's depth nearer to the surgeon, or 0.
+// are no border for that, so they are the gap's depth nearer to the surgeon, or 0. A place where the
+// burr, let down, would rest on material that is level with the border is left to a smaller burr; a
+// place that was tried waits twice as long each time, so that no pit keeps the hand from the rest.
 //
 // Frame: world. Units: SI. Thread: the one that runs the ticks, between two of them. Cost: a pass over
 // the nodes of the gap a call.
@@ -26,8 +28,7 @@ namespace burr::surgeon {
 
 // What is to be filled in a step, as this surgeon believes it.
 struct Filling {
-  // depth below the border of the region and of what lies `margin` and more away from all that must
-  // stay whole
+  // depth below the border of the region and outside of all that must stay whole
   FieldGrid gap;
   // the largest such depth here and straight ahead on the way out: how far material may still rise
   FieldGrid rise;
@@ -55,8 +56,12 @@ class FillWork final : public Work {
     math::Vec3 at;  // world [m]
     math::Ijk voxel;
     std::uint32_t banned;  // until this call of next()
+    std::uint32_t tries;
   };
   [[nodiscard]] bool on_surface(const volume::Bone& bone, const Node& node) const;
+  [[nodiscard]] bool reaches(const volume::Bone& bone, const Node& node) const;
+  [[nodiscard]] std::size_t best(const volume::Bone& bone, const math::Vec3& hand, double luck);
+  bool take_smaller();
   [[nodiscard]] NextStroke stroke_at(const volume::Bone& bone, const Node& node,
                                      people::RandomStream& random) const;
 

@@ -119,10 +119,10 @@ std::vector<Vec3> approach_of(const scenario::Lesson& lesson) {
 
 Spare spare_of(const volume::Grid& bone, const scenario::Lesson& lesson, const Believed& believed,
                double margin_less) {
-  Spare out{FieldGrid(bone), FieldGrid(bone)};
+  Spare out{FieldGrid(bone), FieldGrid(bone), FieldGrid(bone)};
   constexpr float kFar = 1;  // [m]
-  std::fill(out.free.value.begin(), out.free.value.end(), kFar);
-  std::fill(out.near.value.begin(), out.near.value.end(), kFar);
+  for (FieldGrid* one : {&out.free, &out.outside, &out.near})
+    std::fill(one->value.begin(), one->value.end(), kFar);
   for (const scenario::Structure* one : spared_of(lesson)) {
     if (!believed.known(one->name)) continue;
     double margin = kUsualMargin;
@@ -136,6 +136,7 @@ Spare spare_of(const volume::Grid& bone, const scenario::Lesson& lesson, const B
         });
     for (std::size_t n = 0; n < out.free.nodes(); ++n) {
       const double distance = std::min(1.0, believed.distance(one->name, out.free.node(n)));
+      out.outside.value[n] = std::min(out.outside.value[n], static_cast<float>(distance));
       if (critical) out.near.value[n] = std::min(out.near.value[n], static_cast<float>(distance));
       out.free.value[n] = std::min(out.free.value[n], static_cast<float>(distance - margin));
     }

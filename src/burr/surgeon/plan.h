@@ -51,10 +51,11 @@ class FieldGrid {
 // The largest value at a point and straight ahead of it in the direction `out` (unit).
 [[nodiscard]] FieldGrid behind(const FieldGrid& field, const math::Vec3& out);
 
-// The least D_S(p) - m_S over all structures that are spared, and the least believed D_S(p) over
-// those that a step of the case names as spared.
+// The least D_S(p) - m_S over all structures that are spared; the least believed D_S(p) over all of
+// them; and over those that a step of the case names as spared. Margins are bone that is left over a
+// structure when bone is cut away. Who adds material leaves none: it only must not enter.
 struct Spare {
-  FieldGrid free, near;
+  FieldGrid free, outside, near;
 };
 [[nodiscard]] Spare spare_of(const volume::Grid& bone, const scenario::Lesson& lesson,
                              const Believed& believed, double margin_less);

@@ -23,7 +23,10 @@ constexpr double kAhead = 0.5e-3;  // a stroke turns this far before the goal en
 constexpr double kSlack = 0.1e-3;  // by more than this; it lifts where less is missing [m]
 constexpr double kFarAway = 4e-3;  // beyond it the force is the whole one [m]
 constexpr double kTurning = 4.0;   // of the shaft [1/s]
-constexpr double kRing = 0.1;      // of the radius: so high material rises around the burr [-]
+constexpr double kFills = 0.8;     // radius of what is added at a place, of the burr's [-]
+constexpr double kAtWalls = 0.33;  // of how much higher it rises at a wall: what is heeded [-]
+constexpr double kOver = 0.15;     // of the radius: so far it may come over the border, as what
+                                   // lies between two places stays lower [-]
 constexpr double kFelt = 0.05;     // a smaller force does not say where the burr touches [N]
 constexpr double kGently = 0.15;   // of the pedal: material is added in thin layers [-]
 
@@ -78,7 +81,18 @@ double SurgeonHand::room(const Vec3& p) const BURR_RT {
   if (!adds_) return goal_->at(p) - radius_;
   const double felt = math::norm(force_);
   const Vec3 towards = felt > kFelt ? Vec3(-force_ / felt) : stroke_.into;  // what it touches
-  return goal_->at(p + radius_ * towards) - kRing * radius_;
+  return goal_->at(p + radius_ * towards) - ring(radius_, -math::dot(towards, stroke_.out));
+}
+
+// A deposit fills a ball of kFills radii about the place, outside of the burr (edit/carve.h). Seen from
+// the place, it reaches kOpen beyond the tangent plane.
+double SurgeonHand::ring(double radius, double down) BURR_RT {
+  const double lean = std::acos(std::clamp(down, -1.0, 1.0));
+  const double on_floor = kFills * kFills / 2;
+  const double open =
+      std::acos(kFills / 2);  // from the way out to the edge of the fill, on a floor
+  const double top = kFills * std::cos(std::max(0.0, open - lean));
+  return radius * (kAtWalls * (top - on_floor) - kOver);
 }
 
 void SurgeonHand::reach_bone() BURR_RT {

@@ -41,6 +41,10 @@ struct Stroke {
 
 class SurgeonHand final : public device::Device {
  public:
+  // How far below the border a place must lie [m], so that what a burr of this radius adds there ends
+  // about level with it; negative where it may lie above. down: how much of the direction from the
+  // burr to the place goes into the bone; 1 on a floor, 0 at a wall, where material rises higher.
+  [[nodiscard]] static double ring(double radius, double down) BURR_RT;
   // dt: of a tick [s]. at: where it begins.
   SurgeonHand(const Skill& skill, double dt, std::uint64_t seed, const math::Vec3& at,
               const math::Vec3& shaft);
