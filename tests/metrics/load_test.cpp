@@ -69,8 +69,9 @@ TEST(Shaft, IsInBoneFromItsSurfaceOnAtThreeResolutions) {
     plan.bone = [](const Vec3& p) { return -p.x() - 2 * kMm; };  // bone at x < -2 mm
     const auto wall = test::build(plan, plan.bone, h);
     const DrawnShaft shaft{1.2 * kMm, 60 * kMm};
-    double first = 0;  // how far the shaft's surface is from the wall when it is first seen in it
-    for (double gap = 0.5 * kMm; gap > -0.5 * kMm && first == 0; gap -= 0.01 * kMm)
+    // how far the shaft's surface is from the wall when it is first seen in it; 1 mm: never
+    double first = 1 * kMm;
+    for (double gap = 0.5 * kMm; gap > -0.5 * kMm && first == 1 * kMm; gap -= 0.01 * kMm)
       if (shaft_in_bone(*wall, {-2 * kMm + shaft.radius + gap, 0, 0}, Vec3::UnitZ(), 1 * kMm,
                         shaft))
         first = gap;

@@ -197,7 +197,9 @@ ReportStrip safety_strip(const Scored& scored, const scoring::Item& item, const 
   for (const metrics::NearnessOf& one : scored.score.shown.nearness) {
     if (one.name != item.structure || !one.found || !std::isfinite(one.found->least)) continue;
     strip.spans.push_back({one.found->least_at, one.found->least_at, Tone::open, ""});
-    strip.caption = say(Word::strip_near, 1e3 * one.found->least, one.found->least_at);
+    // a distance below 0 is within its error of half a voxel here: the item says whether it was entered
+    strip.caption =
+        say(Word::strip_near, std::max(0.0, 1e3 * one.found->least), one.found->least_at);
   }
   return strip;
 }

@@ -32,9 +32,9 @@ figure { display: inline-block; margin: .2em .4em .2em 0; vertical-align: top } 
 .legend span { display: inline-block; margin-right: 1.2em; font-size: .88em } .legend i { display: inline-block; width: .9em; height: .9em; border: 1px solid #777; margin-right: .35em; vertical-align: -.1em }
 svg { max-width: 100%; height: auto; vertical-align: middle } .totals { display: grid; grid-template-columns: 1fr 1fr; gap: .3em 2em } .totals b { font-size: 1.15em }
 ol { margin: .3em 0; padding-left: 1.5em } code { font-family: "DejaVu Sans Mono", monospace; font-size: .9em; overflow-wrap: anywhere }
-@page { size: A4; margin: 12mm }
+@page { size: A4; margin: 10mm }
 @media print { body { font-size: 8pt; line-height: 1.22; margin: 0; padding: 0; max-width: none } h2 { margin: .8em 0 .25em; break-after: avoid }
- td, th { padding: .12em .35em } .proof, .proof figure { width: 36mm } .proof img { width: 28mm; height: auto } figcaption { line-height: 1.1 } figure, svg, .warn, .whole { break-inside: avoid } .remarks p { margin: .1em 0 }
+ td, th { padding: .12em .35em } .proof, .proof figure { width: 36mm } .proof img { width: 28mm; height: auto } figcaption { line-height: 1.15; padding-top: .25em } figure, svg, .warn, .whole { break-inside: avoid } .remarks p { margin: .1em 0 }
  * { -webkit-print-color-adjust: exact; print-color-adjust: exact } }
 )";
 
