@@ -14,7 +14,7 @@
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/scenario/case.h"
-#include "burr/scenario/read_lesson.h"
+#include "burr/scenario/read_texts.h"
 #include "burr/scenario/toml_reader.h"
 #include "burr/scoring/built_in.h"
 
