@@ -1,4 +1,4 @@
-// scenario/read_texts.h - a text in one language or several. For use of this room only.
+// scenario/read_texts.h - a text in one language or several, for the readers of cases, tools and rubrics.
 //
 // Thread: any.
 #pragma once
