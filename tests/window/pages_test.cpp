@@ -302,8 +302,10 @@ TEST_F(Window, ChangesWhatAGamepadAndAPedalDoOnTheOtherLeafOfTheSettings) {
                    {"the next slider", looks(3), [] { click(1050, 234); }},
                    {"the coolant", [&] { return now.pedal_coolant > 20; }, none},
                    {"the next slider", looks(3), [] { click(1050, 271); }},
-                   {"the clutch", [&] { return now.pedal_clutch > 20; }, none},
+                   {"the tool", [&] { return now.pedal_tool > 20; }, none},
                    {"the next slider", looks(3), [] { click(1050, 308); }},
+                   {"the clutch", [&] { return now.pedal_clutch > 20; }, none},
+                   {"the next slider", looks(3), [] { click(1050, 345); }},
                    {"the axis", [&] { return now.pedal_rest > 0.9; }, [] { move_to(1200, 600); }},
                    {"the slider let go", looks(5), [] { press(SDLK_ESCAPE); }},
                    {"the page to go", looks(5), [] { press(SDLK_q); }}});
@@ -314,6 +316,7 @@ TEST_F(Window, ChangesWhatAGamepadAndAPedalDoOnTheOtherLeafOfTheSettings) {
   EXPECT_EQ(read.settings.pedal_mill, now.pedal_mill);
   EXPECT_EQ(read.settings.pedal_burr, now.pedal_burr);
   EXPECT_EQ(read.settings.pedal_coolant, now.pedal_coolant);
+  EXPECT_EQ(read.settings.pedal_tool, now.pedal_tool);
   EXPECT_EQ(read.settings.pedal_rest, now.pedal_rest);
 }
 

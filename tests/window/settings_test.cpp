@@ -43,6 +43,7 @@ TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
   s.pedal_mill = 3;
   s.pedal_burr = 0;
   s.pedal_coolant = 4;
+  s.pedal_tool = 5;
   s.pedal_clutch = 5;
   s.pedal_rest = 1;
   s.effects = false;
@@ -79,7 +80,7 @@ TEST_F(SettingsFile, IsExplainedLineByLine) {
     }
     before = line;
   }
-  EXPECT_EQ(set, 27);
+  EXPECT_EQ(set, 28);
 }
 
 TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {
