@@ -110,8 +110,9 @@ TEST_F(FoundScans, OfSeveralSeriesTheDateOfTheStudyIsKnownAndNothingElseOfThePat
                                                        {"2021030", ""},
                                                        {"2021O301", ""}};
   int n = 0;
-  for (const auto& [stated, seen] : dates) {
+  for (const auto& date : dates) {
     const std::string number = std::to_string(++n);
+    const char* const stated = date.first;
     phase("s" + number + "_", 5, 0, 1, 1100, [&](DicomSlice& s, int) {
       s.set(0x0020000E, "UI", "1.2.3." + number).set(0x0020000D, "UI", "1.2.4." + number);
       s.set(0x00200011, "IS", number);
