@@ -31,7 +31,7 @@ using namespace burr;
 using app::quantile;
 using math::Vec3;
 
-constexpr std::array<const char*, 5> kScenes = {"plane", "groove", "hole", "slot", "rough"};
+const std::vector<std::string> kScenes = {"plane", "groove", "hole", "slot", "rough"};
 constexpr double kVoxel = 0.25e-3, kPressed = 0.5e-3;  // [m]
 constexpr double kHole = 4e-3;                         // radius [m]
 constexpr double kSpeed = 0.1, kTurns = 3;             // of the hand, at most [m/s], [rad/s]
@@ -210,7 +210,7 @@ Status run(const Options& options) {
                "scene", "p50 us", "p99 us", "p99.9 us", "max us", "points", "force N", "ddF N",
                "ddT N mm", "cut mm3");
   for (const scenario::RackTool& tool : tools)
-    for (const char* scene : kScenes) {
+    for (const std::string& scene : kScenes) {
       if (options.scene != "all" && options.scene != scene) continue;
       if (!fits(scene, extent_of(tool.tool))) continue;
       const auto measured = measure(options, tool, scene);
@@ -231,10 +231,12 @@ Status run(const Options& options) {
 
 void add(CLI::App& bench, app::Todo& todo) {
   auto options = std::make_shared<Options>();
+  std::vector<std::string> scenes = kScenes;
+  scenes.emplace_back("all");
   auto* command = bench.add_subcommand("tool", "measure one tick with the tools of the rack");
   command->add_option("--tool", options->tool, "one of the rack, or all")->capture_default_str();
   command->add_option("--scene", options->scene, "plane, groove, hole, slot, rough or all")
-      ->check(CLI::IsMember({"plane", "groove", "hole", "slot", "rough", "all"}))
+      ->check(CLI::IsMember(scenes))
       ->capture_default_str();
   command->add_flag("--mill", options->mill, "cut as well");
   command->add_option("--ticks", options->ticks, "ticks to measure in each scene")

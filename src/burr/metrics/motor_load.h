@@ -12,7 +12,7 @@
 
 namespace burr::metrics {
 
-inline constexpr double kSlowed = 0.8;  // of the speed that is asked for [-]
+inline constexpr double kSlowed = 0.8;  // share of the speed that pedal and setting command [-]
 
 struct MotorLoad {
   double contact = 0;              // with the foot on the pedal [s]

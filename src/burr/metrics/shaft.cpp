@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "burr/math/sums.h"
+#include "burr/metrics/look_along.h"
 #include "burr/metrics/near.h"
 #include "burr/volume/sample.h"
 
@@ -96,16 +97,9 @@ Result<Assessed<ShaftInBone>> shaft_of(record::Player& player, volume::Bone& bon
     return Assessed<ShaftInBone>(
         NotAssessable{"the recording does not say how thick the shaft is"});
   ShaftInBoneMaker maker({recorded->radius, recorded->length});
-  MomentReader reader(player);
-  Moment now;
-  while (reader.next(now)) {
-    if (!maker.add(now)) continue;
-    if (progress.cancelled()) return error(Trouble::interrupted, "stopped");
-    progress.report(static_cast<double>(now.tick) / static_cast<double>(player.end_tick()),
-                    "looking for the shaft");
-    if (const Status shown = player.bone_at(now.t, bone); !shown) return shown.error();
-    maker.look(bone);
-  }
+  if (const Status looked = look_along(player, bone, maker, "looking for the shaft", progress);
+      !looked)
+    return looked.error();
   return maker.finish();
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "burr/math/sums.h"
+#include "burr/metrics/look_along.h"
 #include "burr/metrics/near.h"
 #include "burr/metrics/solidity.h"
 #include "burr/volume/sample.h"
@@ -99,16 +100,10 @@ Assessed<Visibility> VisibilityMaker::finish() const {
 Result<Assessed<Visibility>> visibility_of(record::Player& player, volume::Bone& bone,
                                            std::span<const EyeSample> eyes, Progress& progress) {
   VisibilityMaker maker(eyes);
-  MomentReader reader(player);
-  Moment now;
-  while (reader.next(now)) {
-    if (!maker.add(now)) continue;
-    if (progress.cancelled()) return error(Trouble::interrupted, "stopped");
-    progress.report(static_cast<double>(now.tick) / static_cast<double>(player.end_tick()),
-                    "measuring what was in sight");
-    if (const Status shown = player.bone_at(now.t, bone); !shown) return shown.error();
-    maker.look(bone);
-  }
+  if (const Status looked =
+          look_along(player, bone, maker, "measuring what was in sight", progress);
+      !looked)
+    return looked.error();
   if (maker.end()) {
     if (const Status shown = player.bone_at(player.seconds(), bone); !shown) return shown.error();
     maker.look(bone);

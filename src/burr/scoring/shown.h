@@ -35,7 +35,7 @@ struct DoneStep {
   bool early = false;      // before another one that must come first
 };
 
-// What is told beside the items. None of it earns a point unless a rubric asks for it.
+// Figures that a report shows beside the items. They earn points only where a rubric has an item for them.
 struct Figures {
   metrics::Times times;
   metrics::Paths paths;

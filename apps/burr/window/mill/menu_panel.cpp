@@ -1,6 +1,7 @@
 #include "window/mill/menu_panel.h"
 
 #include "window/mill/side_panel.h"
+#include "window/mill/titled_panel.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -12,20 +13,8 @@ MenuPressed draw_menu(Ui& ui, const std::string& title, const std::vector<MenuIt
   MenuPressed pressed;
   const float u = ui.unit(), x = kSideLeft * u, y = kSideTop * u, wide = kSideWide * u;
   const float high = (kTop + kRow * static_cast<float>(items.size()) + 10) * u;
-  ui.panel("##menu", x, y, wide, high);
+  pressed.close = begin_titled(ui, "##menu", high, title);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled({x, y}, {x + wide, y + high}, ink::rgb(20, 23, 27), 8 * u);
-  ui.write(x + 14 * u, y + 13 * u, Letter::strong, ink::kAccent, title);
-  const float cross = x + wide - 36 * u;
-  ImGui::SetCursorScreenPos({cross, y + 8 * u});
-  pressed.close = ImGui::InvisibleButton("##close", {28 * u, 28 * u});
-  if (ImGui::IsItemHovered()) {
-    draw.AddRectFilled({cross, y + 8 * u}, {cross + 28 * u, y + 36 * u}, ink::kOver, 5 * u);
-    ImGui::SetTooltip("%s", word(Word::leaf_close));
-  }
-  const ImVec2 c = {cross + 14 * u, y + 22 * u};
-  draw.AddLine({c.x - 5 * u, c.y - 5 * u}, {c.x + 5 * u, c.y + 5 * u}, ink::kText, 1.5F * u);
-  draw.AddLine({c.x - 5 * u, c.y + 5 * u}, {c.x + 5 * u, c.y - 5 * u}, ink::kText, 1.5F * u);
   for (std::size_t n = 0; n < items.size(); ++n) {
     const float at = y + (kTop + kRow * static_cast<float>(n)) * u;
     ImGui::PushID(static_cast<int>(n));

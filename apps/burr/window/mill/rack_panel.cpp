@@ -7,6 +7,7 @@
 
 #include "window/mill/hud.h"
 #include "window/mill/side_panel.h"
+#include "window/mill/titled_panel.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -94,20 +95,7 @@ RackPressed draw_rack(Ui& ui, const std::vector<RackTile>& tiles,
   const float grid = std::min(rows * kTileHigh * u, room - kTop * u - foot);
   const float high = kTop * u + grid + foot;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
-  ui.panel("##rack", x, y, wide, high);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled({x, y}, {x + wide, y + high}, ink::rgb(20, 23, 27), 8 * u);
-  ui.write(x + 14 * u, y + 13 * u, Letter::strong, ink::kAccent, word(Word::rack));
-  const float cross = x + wide - 36 * u;
-  ImGui::SetCursorScreenPos({cross, y + 8 * u});
-  pressed.close = ImGui::InvisibleButton("##close", {28 * u, 28 * u});
-  if (ImGui::IsItemHovered()) {
-    draw.AddRectFilled({cross, y + 8 * u}, {cross + 28 * u, y + 36 * u}, ink::kOver, 5 * u);
-    ImGui::SetTooltip("%s", word(Word::leaf_close));
-  }
-  const ImVec2 c = {cross + 14 * u, y + 22 * u};
-  draw.AddLine({c.x - 5 * u, c.y - 5 * u}, {c.x + 5 * u, c.y + 5 * u}, ink::kText, 1.5F * u);
-  draw.AddLine({c.x - 5 * u, c.y + 5 * u}, {c.x + 5 * u, c.y - 5 * u}, ink::kText, 1.5F * u);
+  pressed.close = begin_titled(ui, "##rack", high, word(Word::rack));
   ImGui::SetCursorScreenPos({x + 10 * u, y + kTop * u});
   ImGui::BeginChild("##tiles", {wide - 14 * u, grid});
   const ImVec2 first = ImGui::GetCursorScreenPos();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "window/mill/cross_button.h"
 #include "window/mill/hud.h"
 #include "window/shell/words.h"
 
@@ -158,16 +159,7 @@ std::optional<Leaf> draw_side_tabs(Ui& ui, Leaf now, bool task, bool steps, bool
     ui.write(x + 12 * u, y + 6 * u, Letter::body, tab.leaf == now ? ink::kText : ink::kDim, name);
     x += size.x + 3 * u;
   }
-  const float cross = (kSideLeft + kSideWide - 32) * u;
-  ImGui::SetCursorScreenPos({cross, y});
-  if (ImGui::InvisibleButton("##close", {28 * u, 28 * u})) pressed = Leaf::none;
-  if (ImGui::IsItemHovered()) {
-    draw.AddRectFilled({cross, y}, {cross + 28 * u, y + 28 * u}, ink::kOver, 5 * u);
-    ImGui::SetTooltip("%s", word(Word::leaf_close));
-  }
-  const ImVec2 c = {cross + 14 * u, y + 14 * u};
-  draw.AddLine({c.x - 5 * u, c.y - 5 * u}, {c.x + 5 * u, c.y + 5 * u}, ink::kText, 1.5F * u);
-  draw.AddLine({c.x - 5 * u, c.y + 5 * u}, {c.x + 5 * u, c.y - 5 * u}, ink::kText, 1.5F * u);
+  if (draw_cross(ui, (kSideLeft + kSideWide - 32) * u, y)) pressed = Leaf::none;
   ImGui::End();
   ImGui::PopStyleVar();
   return pressed;
