@@ -226,10 +226,18 @@ TEST(Guardian, TheProgramLetsGoHoweverItEnds) {
       ::execl(program.c_str(), program.c_str(), "bench", "device", "block", "--voxel-mm", "0.5",
               "--echo-seconds", "1", "--seconds", "600", "--device", device.c_str(), nullptr);
     });
-    // into the bone once it has started: burr places the tip two centimetres above it at any time
-    double mm = 0;
+    ASSERT_TRUE(soon([&] { return arm.with([](auto& w) { return w.lines > 0; }); }));
+    // The hand goes down into the bone, whose surface is 2 cm below where burr first saw the hand,
+    // and comes up again: a force that was released because the machine stalled comes back only
+    // after the hand has left the bone.
+    double mm = 0, step_mm = -0.02, lowest_mm = -30;
     const bool pushed = soon([&] {
-      mm -= 0.02;
+      mm += step_mm;
+      if (mm < lowest_mm) step_mm = 0.02;
+      if (mm > 0) {
+        step_mm = -0.02;
+        lowest_mm -= 10;
+      }
       arm.with([&](test::FakePolhem::Commands& w) { w.mm[0] = mm; });
       return arm.force().norm() > 0.3;
     });

@@ -103,7 +103,7 @@ class WholeSession : public ::testing::TestWithParam<test::Driver> {
 };
 
 TEST_P(WholeSession, TheWallPushesUpAndTheMillButtonCuts) {
-  begin();
+  ASSERT_NO_FATAL_FAILURE(begin());
   ASSERT_TRUE(press()) << player_->force().transpose();
   const Vec3 force = player_->force();
   EXPECT_NEAR(force.y(), kWall * 2.5 * kMm, 0.1);
@@ -117,7 +117,7 @@ TEST_P(WholeSession, TheWallPushesUpAndTheMillButtonCuts) {
 }
 
 TEST_P(WholeSession, PulledOutInContactTheSessionTellsAndGoesOnWhenItIsBack) {
-  begin();
+  ASSERT_NO_FATAL_FAILURE(begin());
   ASSERT_TRUE(press());
   player_->unplug();
   ASSERT_TRUE(raised(rt::kFlagHandLost));
@@ -147,7 +147,7 @@ TEST_P(WholeSession, PulledOutInContactTheSessionTellsAndGoesOnWhenItIsBack) {
 }
 
 TEST_P(WholeSession, LiftedItCanBeLaidElsewhere) {
-  begin();
+  ASSERT_NO_FATAL_FAILURE(begin());
   ASSERT_TRUE(press());
   clutch(true);
   ASSERT_TRUE(soon([&] { return (row().hand.buttons & kLifted) != 0; }));
@@ -165,7 +165,7 @@ TEST_P(WholeSession, LiftedItCanBeLaidElsewhere) {
 }
 
 TEST_P(WholeSession, AStopFromOutsideIsAsALift) {
-  begin();
+  ASSERT_NO_FATAL_FAILURE(begin());
   ASSERT_TRUE(press());
   hand_->lift(true);
   ASSERT_TRUE(let_go());
@@ -179,7 +179,7 @@ TEST_P(WholeSession, AStopFromOutsideIsAsALift) {
 // Here the wire waits for its tick, so that only readings between two ticks have no force of their
 // own: a force that is late for many readings is not the machine's fault.
 TEST_P(WholeSession, AForceIsOfTheReadingItGoesWith) {
-  begin(test::kStallsAllowed / 2);
+  ASSERT_NO_FATAL_FAILURE(begin(test::kStallsAllowed / 2));
   ASSERT_TRUE(press());
   std::vector<int> late;
   for (int step = 0; step < 41; ++step) {
@@ -207,7 +207,7 @@ TEST_P(WholeSession, AForceIsOfTheReadingItGoesWith) {
 
 // As deep as a hand can go into the hardest wall that the device can show.
 TEST_P(WholeSession, NothingPassesTheDevicesLimit) {
-  begin(LinkSettings().answer_timeout, 1e6);
+  ASSERT_NO_FATAL_FAILURE(begin(LinkSettings().answer_timeout, 1e6));
   go(-3);
   go(-11);
   ASSERT_TRUE(soon([&] { return player_->force().y() > 0.99 * player_->limit(); }))

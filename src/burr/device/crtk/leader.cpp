@@ -26,6 +26,7 @@ constexpr milliseconds kStated(600);    // for an arm to report its state
 constexpr milliseconds kHomes(60'000);  // for an arm to home
 constexpr double kCounted = 0.4;        // time over which its rate is measured [s]
 constexpr int kCountedPlaces = 100;     // ... but not more poses than this
+constexpr int kCountings = 5;           // a low rate is measured again: a busy computer loses poses
 constexpr milliseconds kLeft(1000);     // for another writer to disappear: it may be our own
                                         // earlier one
 constexpr milliseconds kLook(2);
@@ -315,7 +316,8 @@ Result<DeviceSpec> Leader::connect() {
   const Status prepared = prepare(*connection);
   if (!prepared) return prepared.error();
 
-  const double rate = connection->rate();
+  double rate = 0;
+  for (int n = 0; n < kCountings && rate < kSlowest; ++n) rate = std::max(rate, connection->rate());
   if (!until(kLeft, [&connection] { return connection->others(true) == 0; }))
     return error(Trouble::io,
                  fmt::format("another program sends forces to {0}: it writes {0}{1} or {0}{2}; end "
