@@ -68,7 +68,7 @@ endif()
 # (src/burr/workshop/prebuilt_phantom.h). Not in sanitizer builds, where this takes minutes; there
 # the program uses the formula.
 if(BURR_APP AND NOT BURR_SANITIZE AND NOT BURR_WARNINGS_ONLY)
-  foreach(phantom temporal-bone jaw jaw?long,defect tooth tooth?graded spine)
+  foreach(phantom temporal-bone temporal-bone?ridge-dura jaw jaw?long,defect tooth tooth?graded spine)
     string(REGEX REPLACE "[?,]" "-" file ${phantom})
     set(bone ${CMAKE_BINARY_DIR}/bones/${file}.bone)
     add_custom_command(OUTPUT ${bone}

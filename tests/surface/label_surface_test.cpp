@@ -106,6 +106,46 @@ TEST(LabelSurface, TubeHasItsRadius) {
   }
 }
 
+// A sheet nearly parallel to the voxels, as dura over the tegmen: its faces are planes, not terraces.
+TEST(LabelSurface, FlatSheetHasNoTerraces) {
+  volume::Grid grid;
+  grid.size = {96, 64, 32};
+  grid.voxel = 0.25e-3;
+  const auto count = static_cast<std::size_t>(grid.size.prod());
+  volume::TissueTable tissues;
+  tissues.tissues.push_back({.name = "dura", .kind = volume::TissueKind::soft});
+  for (const double slope : {0.03, 0.07, 0.2}) {
+    SCOPED_TRACE(slope);
+    const Vec3 up = Vec3(-slope, -0.3 * slope, 1).normalized(), middle(48, 32, 16);
+    const auto off = [&](const Vec3& p) { return up.dot(p - middle); };
+    std::vector<volume::Field> field(count);
+    std::vector<volume::TissueId> tissue(count);
+    std::size_t at = 0;
+    for (int k = 0; k < grid.size.z(); ++k)
+      for (int j = 0; j < grid.size.y(); ++j)
+        for (int i = 0; i < grid.size.x(); ++i)
+          tissue[at++] = std::abs(off(Vec3(i, j, k))) < 2.6 ? 2 : 0;
+    const auto bone = volume::bone_from_arrays(grid, tissues, field, tissue, {}, 0);
+    NoProgress quiet;
+    const auto mesh = label_surface(*bone, 2, quiet);
+    ASSERT_TRUE(mesh.ok());
+    EXPECT_EQ(test::shape_of(*mesh).trouble, "");
+    double most = 0, turned = 0;
+    int asked = 0;
+    for (const Vertex& vertex : mesh->vertices) {
+      const Vec3 p = grid.grid_from_world(vertex.p.cast<double>());
+      if ((p - middle).cwiseAbs().x() > 24 || (p - middle).cwiseAbs().y() > 14) continue;
+      ++asked;
+      most = std::max(most, std::abs(std::abs(off(p)) - 2.6));
+      turned =
+          std::max(turned, std::acos(std::min(1.0, std::abs(up.dot(vertex.n.cast<double>())))));
+    }
+    EXPECT_GT(asked, 2000);
+    EXPECT_LT(most, 0.5);
+    EXPECT_LT(turned, 1.5 * std::numbers::pi / 180) << "of its normals";
+  }
+}
+
 // A membrane one voxel thick has no hole: its surface is one shell with both faces.
 TEST(LabelSurface, ThinMembraneHasNoHole) {
   volume::Grid grid;

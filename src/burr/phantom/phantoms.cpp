@@ -31,11 +31,12 @@ Phantom round_ball(double, const Variant&) {
   return phantom;
 }
 
-constexpr std::array<VariantWord, 4> kTemporalBoneVariants = {
+constexpr std::array<VariantWord, 5> kTemporalBoneVariants = {
     {{"forward-sinus", "the descending sigmoid sinus lies 4 mm farther forward"},
      {"low-dura", "the dura over the mastoid lies 4 mm lower"},
      {"dehiscent", "no bone over 3 mm of the facial nerve's tympanic part"},
-     {"sclerotic", "dense bone in place of the mastoid cells"}}};
+     {"sclerotic", "dense bone in place of the mastoid cells"},
+     {"ridge-dura", "the dura covers the ridge of the pyramid too, without gaps"}}};
 constexpr std::array<VariantWord, 1> kSpineVariants = {
     {{"thin-pedicle", "the pedicles are 2.4 mm narrower and lower"}}};
 constexpr std::array<VariantWord, 3> kJawVariants = {

@@ -140,6 +140,7 @@ volume::TissueTable table() {
 struct Parts {
   double hull = 0;    // the bone as a whole, without holes
   double fossa = 0;   // the inside of the skull
+  double dura = 0;    // where the dura may be: so near to the bone
   double tegmen = 0;  // height above the floor of the middle fossa
   double canal = 0;   // ear canal
   double middle = 0;  // tympanic cavity
@@ -169,7 +170,8 @@ class TemporalBone {
         forward_(variant.has("forward-sinus") ? 4 * kMm : 0.0),
         lower_(variant.has("low-dura") ? 4 * kMm : 0.0),
         dehiscent_(variant.has("dehiscent")),
-        sclerotic_(variant.has("sclerotic")) {}
+        sclerotic_(variant.has("sclerotic")),
+        ridge_dura_(variant.has("ridge-dura")) {}
 
   [[nodiscard]] double depth(const Vec3& p) const { return bone(remembered(p)); }
   [[nodiscard]] double soft(const Vec3& p) const { return labelled(remembered(p)); }
@@ -205,7 +207,7 @@ class TemporalBone {
 
   double ramp_;             // [m]
   double forward_, lower_;  // of the sinus and of the dura, from their usual places [m]
-  bool dehiscent_, sclerotic_;
+  bool dehiscent_, sclerotic_, ridge_dura_;
   std::uint64_t number_ = next_number();
   static std::uint64_t next_number() {
     static std::atomic<std::uint64_t> last{0};
@@ -382,6 +384,7 @@ Parts TemporalBone::parts(const Vec3& p) const {
 
   const double canal_axis = canal_.distance(p);
   s.hull = std::min(carve_soft(outer(p, canal_axis), -s.fossa, 1.5 * mm), block);
+  s.dura = ridge_dura_ ? std::min(s.hull + 3.5 * mm, block + 2 * mm) : s.hull + 2 * mm;
 
   if (s.hull < -kSkin) return s;  // nothing inside matters here
 
@@ -584,7 +587,7 @@ double TemporalBone::labelled(const Parts& s) {
       std::max({s.canal, s.middle, s.antrum, s.cells, -s.semicircular, kCochleaTube - s.cochlea});
   const double dura = std::min(s.fossa, 1.5 * kMm - s.fossa);
   return std::max({std::min(std::max(tubes, holes), in_bone + 4 * kMm), kChordaRadius - s.chorda,
-                   std::min(dura, in_bone), s.drum});
+                   std::min(dura, s.dura - 0.5 * kMm), s.drum});
 }
 
 TissueId TemporalBone::tissue(const Vec3& p, double depth) const {
@@ -620,14 +623,14 @@ TissueId TemporalBone::soft_tissue(const Parts& s) {
   if (s.facial < kFacialNerveRadius && s.hull > -4 * mm) return kFacialNerve;
   if (s.chorda < kChordaRadius) return kChorda;
   if (s.drum > 0) return kEardrum;
-  if (s.hull < -2 * mm) return kAir;
+  const bool dura = s.fossa > 0 && s.fossa < 1.5 * mm && s.dura >= 0;
+  if (s.hull < -2 * mm) return dura ? kDura : kAir;
   if (s.semicircular < 0) return kSemicircular;
   if (s.cochlea < kCochleaTube) return kCochlea;
   if (s.sinus < kSinusRadius) return kSinus;
   if (s.carotid < kCarotidRadius) return kCarotid;
   if (s.meatus < kMeatusRadius) return kMeatusNerves;
-  if (s.fossa > 0 && s.fossa < 1.5 * mm) return kDura;
-  return kAir;
+  return dura ? kDura : kAir;
 }
 
 TissueId TemporalBone::air_tissue(const Parts& s, const Vec3& p) {

@@ -26,6 +26,13 @@ constexpr float kFarthest = 0.5F;               // that a vertex may move [voxel
 constexpr double kThin = 2.5;                   // a strand thinner than this [voxel] ...
 constexpr float kThinFarthest = 1;  // ... follows its middle rather than its voxels [voxel]
 constexpr int kNormalRounds = 10;
+// A face that is nearly parallel to the voxels has terraces many voxels long, which that smoothing
+// takes for its shape. Where a face is flat within about six voxels, it is smoothed again, as a net
+// under tension (Gibson 1998). Flat: the mean of its normals there is nearly as long as one of them.
+constexpr int kReachRounds = 60, kFlatRounds = 100;
+constexpr float kFlatFarthest = 0.6F;  // that a vertex of it may move [voxel]
+constexpr float kBent = 0.95F,
+                kFlat = 0.985F;  // length of that mean: not smoothed, wholly smoothed
 
 using Near = std::array<float, static_cast<std::size_t>(kEdge* kEdge* kEdge)>;
 
@@ -193,6 +200,47 @@ double thickness(const Mesh& mesh) {
   return area > 0 ? 4 * volume / area : 0;
 }
 
+// The normals of a mesh with its vertices at these places.
+std::vector<Vec3f> normals_at(const Mesh& mesh, const std::vector<Vec3f>& p) {
+  std::vector<Vec3f> normals(p.size(), Vec3f::Zero());
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const std::uint32_t* c = &mesh.triangles[t];
+    const Vec3f area = (p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]);
+    for (int i = 0; i < 3; ++i) normals[c[i]] += area;
+  }
+  for (std::size_t v = 0; v < p.size(); ++v)
+    if (const float length = normals[v].norm(); length > 0)
+      normals[v] /= length;
+    else
+      normals[v] = mesh.vertices[v].n;
+  return normals;
+}
+
+// Smooths the flat faces further. start: places before any smoothing.
+void smoothen_flat(const Mesh& mesh, const Around& near, const std::vector<Vec3f>& start,
+                   float farthest, std::vector<Vec3f>& p) {
+  std::vector<Vec3f> normals = normals_at(mesh, p), means(p.size());
+  for (int round = 0; round < kReachRounds; ++round) towards_mean(near, kIn, normals, means);
+  struct Flat {
+    std::uint32_t vertex;
+    float share;
+  };
+  std::vector<Flat> flat;
+  for (std::uint32_t v = 0; v < p.size(); ++v)
+    if (const float share = (normals[v].norm() - kBent) / (kFlat - kBent); share > 0)
+      flat.push_back({v, std::min(share, 1.0F)});
+  for (int round = 0; round < kFlatRounds; ++round)
+    for (const auto& [v, share] : flat) {  // in place: half the rounds
+      Vec3f sum = Vec3f::Zero();
+      for (std::uint32_t n = near.first[v]; n < near.first[v + 1]; ++n) sum += p[near.all[n]];
+      sum /= static_cast<float>(near.first[v + 1] - near.first[v]);
+      p[v] += share * (sum - p[v]);
+      const Vec3f moved = p[v] - start[v];
+      if (const float far = moved.norm(); far > farthest)
+        p[v] = start[v] + moved * (farthest / far);
+    }
+}
+
 void smoothen(Mesh& mesh, double voxel) {
   const Around near = around(mesh);
   // about a point of the mesh, where single precision is finest
@@ -211,17 +259,8 @@ void smoothen(Mesh& mesh, double voxel) {
         p[v] = start[v] + moved * (farthest / far);
     }
   }
-  std::vector<Vec3f> normals(p.size(), Vec3f::Zero());
-  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    const std::uint32_t* c = &mesh.triangles[t];
-    const Vec3f area = (p[c[1]] - p[c[0]]).cross(p[c[2]] - p[c[0]]);
-    for (int i = 0; i < 3; ++i) normals[c[i]] += area;
-  }
-  for (std::size_t v = 0; v < p.size(); ++v)
-    if (const float length = normals[v].norm(); length > 0)
-      normals[v] /= length;
-    else
-      normals[v] = mesh.vertices[v].n;
+  smoothen_flat(mesh, near, start, kFlatFarthest * static_cast<float>(voxel), p);
+  std::vector<Vec3f> normals = normals_at(mesh, p);
   for (int round = 0; round < kNormalRounds; ++round) towards_mean(near, 0.6F, normals, means);
   for (std::size_t v = 0; v < p.size(); ++v) {
     mesh.vertices[v].p = p[v] + origin;

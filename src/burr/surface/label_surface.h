@@ -4,7 +4,9 @@
 // Labels are stairs. The surface is made of their share in each voxel's neighbourhood (a binomial
 // filter of five, variance one voxel), held on the label's side of one half at every voxel, so that
 // no thin membrane gets a hole and no voxel is lost. The mesh is then smoothed without shrinking
-// (Taubin 1995); no vertex moves more than half a voxel. Normals are smoothed further than places,
+// (Taubin 1995); no vertex moves more than half a voxel. A face that is flat and nearly parallel to
+// the voxels would keep long terraces: flat faces are smoothed again as a net under tension that keeps
+// within 0.6 voxel of its labels (Gibson 1998, Constrained Elastic Surface Nets). Normals are smoothed further than places,
 // since an eye sees a stair by its shading. A smooth tube three voxels across or more is true to half
 // a voxel; thinner ones get ragged (tests/surface/label_surface_test.cpp).
 //

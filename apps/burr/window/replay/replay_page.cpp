@@ -36,6 +36,10 @@ constexpr double kPaces[] = {0.25, 0.5, 1, 2, 4, 8};
 constexpr double kStep = 1, kSmallStep = 0.05;  // by an arrow key; with Shift  [s]
 constexpr double kTurn = 0.006;                 // of the view, per pixel of the mouse  [rad]
 constexpr double kShift = 0.5;                  // of the second recording, per key press  [s]
+// After this time without input or change the window is drawn this often: a film that is being made
+// then has the processor.
+constexpr auto kRestsAfter = std::chrono::seconds(1);
+constexpr auto kAtRest = std::chrono::milliseconds(100);
 
 class Watch {
  public:
@@ -82,6 +86,7 @@ class Watch {
   [[nodiscard]] double seconds() const {
     return std::max(first_->line().seconds, second_ ? second_->line().seconds + now_.shift : 0.0);
   }
+  [[nodiscard]] bool at_rest() const;
   [[nodiscard]] double stroke_before(double t) const;
   [[nodiscard]] double stroke_after(double t) const;
 
@@ -107,8 +112,8 @@ class Watch {
   std::optional<ExportPage> export_;
   Closed closed_ = Closed::window;
   std::string note_, trouble_;  // trouble_: of the second recording, until a key
-  Clock::time_point noted_{};
-  double stop_at_ = 0;  // playing ends there [s]
+  Clock::time_point noted_{}, stirred_ = Clock::now();  // stirred_: last input or change
+  double stop_at_ = 0;                                  // playing ends there [s]
 };
 
 // The names of structures are those of the recorded case.
@@ -164,13 +169,19 @@ Result<Closed> Watch::run() {
     if (std::string told = export_->step(); !told.empty()) note(std::move(told));
     if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
     shown = show();
+    if (now_.playing || scrubbing_ || !first_->settled() || (second_ && !second_->settled()) ||
+        !desk_.renderer().refined())
+      stirred_ = Clock::now();
     if (std::exchange(picture_, false)) {
       const Result<std::string> left = desk_.leave_picture(options_.folder);
       note(left ? say(Word::picture_left, *left) : left.error().text);
     }
     frame = std::max(frame + std::chrono::microseconds(16'667), Clock::now());
     const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(frame - Clock::now());
-    if (wait.count() > 0) SDL_Delay(static_cast<Uint32>(wait.count()));
+    if (at_rest())
+      SDL_WaitEventTimeout(nullptr, static_cast<int>(kAtRest.count()));  // an event ends the wait
+    else if (wait.count() > 0)
+      SDL_Delay(static_cast<Uint32>(wait.count()));
     if (options_.seconds > 0 &&
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.seconds)
       open_ = false;
@@ -331,6 +342,8 @@ void Watch::follow() {
   second_->scene().look.opacity = scene_.look.opacity;
 }
 
+bool Watch::at_rest() const { return Clock::now() - stirred_ > kRestsAfter; }
+
 double Watch::stroke_before(double t) const {
   const double first = first_->line().stroke_before(t).value_or(0);
   if (!second_) return first;
@@ -349,7 +362,9 @@ double Watch::stroke_after(double t) const {
 
 void Watch::take_events() {
   SDL_Event event;
-  while (desk_.next(event)) switch (event.type) {
+  while (desk_.next(event)) {
+    stirred_ = Clock::now();
+    switch (event.type) {
       case SDL_QUIT:
         open_ = false;
         break;
@@ -381,6 +396,7 @@ void Watch::take_events() {
       default:
         break;
     }
+  }
   if (auto chosen = dialog_.answer()) {
     SDL_StopTextInput();
     if (!chosen->empty()) dropped_.push_back(*chosen);
