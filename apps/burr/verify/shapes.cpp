@@ -187,6 +187,102 @@ void disc_in_slot(Report::Part& part, double h) {
   part.at_most(at("disc-in-slot.stray-force", h), 0.02, kStiffness * touch.stretch.norm(), "N");
 }
 
+// A hole of radius b through a plate of thickness `thick` (0: endless downwards from z = 0), its rims
+// rounded by kFillet.
+phantom::Depth hole(double b, double thick) {
+  return [b, thick](const Vec3& p) {
+    const double across = b + kFillet - p.head<2>().norm();
+    const double along = thick > 0 ? std::abs(p.z()) - (thick / 2 - kFillet) : p.z() + kFillet;
+    return kFillet - std::min(std::max(across, along), 0.0) -
+           std::hypot(std::max(across, 0.0), std::max(along, 0.0));
+  };
+}
+
+// A peg of radius a in a hole of radius b and length D, turned until it jams:
+//     (a + f) + (D/2 - f) sin A = (b + f) cos A
+// Beyond that a pure couple k_r (beta - A), of two forces s = (D - 2 f) cos A + 2 (b + f) sin A apart.
+void peg_in_hole(Report::Part& part, double h) {
+  const double a = 1.5 * kMm, b = 1.65 * kMm, deep = 6 * kMm, f = kFillet;
+  const Bone bone(hole(b, deep), h, 7 * kMm);
+  const tool::Tool tool = one_part({ShapeKind::cylinder, a - 0.3 * kMm, 0, 6 * kMm, 0.3 * kMm});
+  double low = 0, high = 0.3;
+  for (int n = 0; n < 60; ++n) {
+    const double tilt = 0.5 * (low + high);
+    (a + f + (deep / 2 - f) * std::sin(tilt) < (b + f) * std::cos(tilt) ? low : high) = tilt;
+  }
+  haptics::SixProxy proxy(bone.surface, tool, {.lever = std::sqrt(kTurning / kStiffness)}, {});
+  SixTouch touch;
+  const double beta = low + 10e-3;
+  for (int n = 0; n <= 300; ++n)
+    touch = proxy.step({Vec3::Zero(), turn_about({0, 1, 0}, beta * std::min(1.0, n / 200.0))});
+  const double tilt = beta - touch.turn.norm();
+  const double apart = (deep - 2 * f) * std::cos(tilt) + 2 * (b + f) * std::sin(tilt);
+  const double load = torque_of(touch).norm() / apart;
+  double worst = 0, sum = 0;
+  for (int c = 0; c < touch.active; ++c)
+    sum += kStiffness * touch.contacts[static_cast<std::size_t>(c)].load;
+  worst =
+      std::abs(sum - 2 * load) / (2 * load);  // a rim may hold by several places beside each other
+  part.at_most(at("peg-in-hole.place-of-rim", h), place_error(h), deep * std::abs(tilt - low) / 2,
+               "m");
+  part.at_most(at("peg-in-hole.stray-force", h), 0.02, kStiffness * touch.stretch.norm(), "N");
+  part.at_most(at("peg-in-hole.forces-of-couple", h), 0.02, worst, "");
+}
+
+// A burr of radius r in a canal of radius b, leaning with its shaft of radius a against the rim:
+//     (b + f - c_x) cos A - (-f - c_z) sin A = a + f,   c_x = -(b - r)
+// where c_z makes V least. The load of the shaft is N_2 = torque / lever, that of the head
+// N_1 = F_x + N_2 cos A.
+void burr_in_canal(Report::Part& part, double h) {
+  const double r = 1.8 * kMm, a = 1 * kMm, b = 2.2 * kMm, f = kFillet;
+  const Bone bone(hole(b, 0), h, 12 * kMm);
+  tool::Tool tool = one_part({ShapeKind::ball, 0, 0, 0, r});
+  static_cast<void>(tool::add_part(
+      tool,
+      {{ShapeKind::capsule, 0, 0, 10 * kMm, a}, {{0, 0, 10 * kMm}, Quat::Identity()}, Role::rubs}));
+  const double x = -(b - r);
+  const Vec3 hand(x - 0.3 * kMm, 0, -9 * kMm);
+  const auto tilt_at = [&](double z) {  // of the shaft that touches rim and, by the ball, wall
+    double low = 0, high = 0.6;
+    for (int n = 0; n < 60; ++n) {
+      const double tilt = 0.5 * (low + high);
+      ((b + f - x) * std::cos(tilt) - (-f - z) * std::sin(tilt) > a + f ? low : high) = tilt;
+    }
+    return low;
+  };
+  const double beta = tilt_at(hand.z()) + 20e-3;
+  double best = 0, least = 1e9;
+  for (double z = hand.z() - 0.3 * kMm; z < hand.z() + 0.3 * kMm; z += 0.02e-6) {
+    const double left = beta - tilt_at(z), up = z - hand.z();
+    const double v = kStiffness * up * up + kTurning * left * left;
+    if (v >= least) continue;
+    least = v;
+    best = z;
+  }
+  const double tilt = tilt_at(best);
+  haptics::SixProxy proxy(bone.surface, tool, {.lever = std::sqrt(kTurning / kStiffness)},
+                          {{0, 0, hand.z()}, Quat::Identity()});
+  SixTouch touch;
+  for (int n = 0; n <= 400; ++n) {
+    const double there = std::min(1.0, n / 300.0);
+    touch = proxy.step({{there * hand.x(), 0, hand.z()}, turn_about({0, 1, 0}, there * beta)});
+  }
+  const double felt = beta - touch.turn.norm(), z = hand.z() + touch.stretch.z();
+  const double lever = (b + f - x) * std::sin(felt) + (-f - z) * std::cos(felt);
+  const double shaft = torque_of(touch).norm() / lever;
+  const double head = kStiffness * touch.stretch.x() + shaft * std::cos(felt);
+  double by_part[2] = {0, 0};
+  for (int c = 0; c < touch.active; ++c) {
+    const haptics::SixContact& contact = touch.contacts[static_cast<std::size_t>(c)];
+    by_part[contact.part] += kStiffness * contact.load;
+  }
+  const double long_arm = -f - hand.z();
+  part.at_most(at("burr-in-canal.place-of-rim", h), place_error(h),
+               long_arm * std::abs(felt - tilt), "m");
+  part.near(at("burr-in-canal.load-of-head", h), head, by_part[0], 0.02 * head, "N");
+  part.near(at("burr-in-canal.load-of-shaft", h), shaft, by_part[1], 0.02 * shaft, "N");
+}
+
 // Force and torque are the sums of the contacts'; on a loop of poses the hand's work comes back.
 void wrench_and_energy(Report::Part& part, double h) {
   const Bone bone(phantom::groove(M_PI / 5), h, 9 * kMm);
@@ -232,14 +328,28 @@ void wrench_and_energy(Report::Part& part, double h) {
   part.at_most(at("energy.closed-loop", h), 0.005 * most, std::abs(work), "J");
 }
 
-// A plate of 0.6 mm: blade and flame stay on their side.
-void thin_plate(Report::Part& part, double h, int ticks) {
-  const Vec3 up = Vec3(0.2, 0.3, 1).normalized();
-  const Bone bone(phantom::plate(0.6 * kMm, up), h, 16 * kMm);  // wider than the hand goes
+tool::Tool blade_and_flame() {
   tool::Tool tool = one_part({ShapeKind::box, 0.2 * kMm, 2 * kMm, 2 * kMm, 0.15 * kMm});
   static_cast<void>(tool::add_part(tool, {{ShapeKind::vesica, 1 * kMm, 0, 3 * kMm, 0.3 * kMm},
                                           {{0, 0, 4 * kMm}, Quat::Identity()},
                                           Role::cuts}));
+  return tool;
+}
+
+tool::Tool chisel_and_wheel() {
+  tool::Tool tool = one_part({ShapeKind::wedge, 1 * kMm, 2 * kMm, 6 * kMm, 0.15 * kMm});
+  static_cast<void>(
+      tool::add_part(tool, {{ShapeKind::cylinder, 2.5 * kMm, 0, 0.25 * kMm, 0.15 * kMm},
+                            {{0, 3 * kMm, 1 * kMm}, turn_about({1, 0, 0}, M_PI / 2)},
+                            Role::cuts}));
+  return tool;
+}
+
+// A plate of 0.6 mm: the tool stays on its side.
+void thin_plate(Report::Part& part, const char* name, const tool::Tool& tool, int ticks) {
+  const double h = 0.25 * kMm;
+  const Vec3 up = Vec3(0.2, 0.3, 1).normalized();
+  const Bone bone(phantom::plate(0.6 * kMm, up), h, 16 * kMm);  // wider than the hand goes
   haptics::SixProxy proxy(bone.surface, tool, {}, {7 * kMm * up, Quat::Identity()});
   int wrong = 0, touched = 0;
   for (int n = 0; n < ticks; ++n) {
@@ -259,21 +369,25 @@ void thin_plate(Report::Part& part, double h, int ticks) {
           up.dot(pose * one.tool_from_part.p) - tool::support(one.shape, back * -up) < 0 ? 1 : 0;
     }
   }
-  part.at_most(at("thin-plate.ticks-on-the-wrong-side", h), 0, wrong, "");
-  part.at_least(at("thin-plate.ticks-in-contact", h), 0.25 * ticks, touched, "");
+  const std::string scene = fmt::format("thin-plate-{}", name);
+  part.at_most(at((scene + ".ticks-on-the-wrong-side").c_str(), h), 0, wrong, "");
+  part.at_least(at((scene + ".ticks-in-contact").c_str(), h), 0.25 * ticks, touched, "");
 }
 
 void shapes(const Verify& verify, Report::Part& part) {
   for (const double h : verify.quick ? std::vector<double>{0.25 * kMm}
                                      : std::vector<double>{0.25 * kMm, 0.125 * kMm}) {
     const std::function<void(Report::Part&, double)> all[] = {
-        lying_cylinder, lever_on_rim, tilted_box, disc_in_slot, wrench_and_energy};
+        lying_cylinder, lever_on_rim,  tilted_box,       disc_in_slot,
+        peg_in_hole,    burr_in_canal, wrench_and_energy};
     for (const auto& one : all) {
       if (interrupted()) return;
       one(part, h);
     }
   }
-  thin_plate(part, 0.25 * kMm, verify.quick ? 4000 : 40'000);
+  const int ticks = verify.quick ? 4000 : 500'000;  // a million for both
+  thin_plate(part, "blade-and-flame", blade_and_flame(), ticks);
+  if (!interrupted()) thin_plate(part, "chisel-and-wheel", chisel_and_wheel(), ticks);
 }
 
 const VerifyPart part{
