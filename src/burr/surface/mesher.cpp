@@ -70,6 +70,7 @@ struct Mesher::Work {
       soft.push_back(tissue.kind == volume::TissueKind::soft);
     soft.resize(256);
     find_soft();
+    find_borders();
     std::size_t e = 0;
     for (const CellEdge& edge : cell_edges())
       id_offset[e++] = edge.axis * kIds + (edge.z * kSamples + edge.y) * kSamples + edge.x;
@@ -83,13 +84,17 @@ struct Mesher::Work {
   void make_vertex(int x, int y, int z, const math::Ijk& first);
   void make_triangles();
   void find_soft();
+  void find_borders();
   [[nodiscard]] bool any_soft_near(const math::Ijk& first) const;
   void look_beneath(const math::Vec3& p_grid, const math::Vec3& n_grid, Vertex& v) const;
+  void look_aside(const math::Ijk& voxel, const math::Vec3& p_grid, Vertex& v) const;
 
   const volume::Bone& bone;
   std::vector<bool> soft;         // by TissueId
   std::vector<bool> soft_bricks;  // that hold soft tissue, and their neighbours; empty: none
   bool soft_near = false;         // in reach of this patch
+  std::vector<bool>
+      border_bricks;  // with solid tissues of several kinds, or beside others; empty: none
   math::Ijk patches = {0, 0, 0};
   math::Mat3 step;  // columns: world step of one voxel along i, j, k [m]
   Eigen::Matrix3f turn;
@@ -226,6 +231,38 @@ void Mesher::Work::find_soft() {
   if (any) soft_bricks = std::move(wide);
 }
 
+// A brick beside one of another tissue counts too: a border may run between the two.
+void Mesher::Work::find_borders() {
+  std::vector<int> only(static_cast<std::size_t>(bone.brick_count()));  // its solid tissue; 0: none
+  constexpr int kSeveral = -1;
+  const auto joined = [](int a, int b) { return a == b || b == 0 ? a : a == 0 ? b : kSeveral; };
+  std::array<int, 256> solids{};
+  for (std::size_t n = 0; n < std::min(solids.size(), bone.tissues().tissues.size()); ++n)
+    if (bone.tissues().tissues[n].kind == volume::TissueKind::solid)
+      solids[n] = static_cast<int>(n);
+  for (BrickIndex b = 0; b < bone.brick_count(); ++b)
+    if (const TissueId* tissue = bone.brick_tissue(b); tissue != nullptr)
+      for (int v = 0; v < volume::kBrickVoxels; ++v)
+        only[static_cast<std::size_t>(b)] =
+            joined(only[static_cast<std::size_t>(b)], solids[tissue[v]]);
+  std::vector<bool> found(only.size());
+  bool any = false;
+  for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
+    if (only[static_cast<std::size_t>(b)] == 0) continue;
+    const math::Ijk at = bone.brick_ijk(b) / kBrickEdge;
+    const math::Ijk low = (at.array() - 1).max(0);
+    const math::Ijk high = (at.array() + 1).min(bone.bricks().array() - 1);
+    int all = 0;
+    for (int k = low.z(); k <= high.z(); ++k)
+      for (int j = low.y(); j <= high.y(); ++j)
+        for (int i = low.x(); i <= high.x(); ++i)
+          all = joined(all, only[static_cast<std::size_t>(bone.brick_at(i, j, k))]);
+    if (all != kSeveral) continue;
+    found[static_cast<std::size_t>(b)] = any = true;
+  }
+  if (any) border_bricks = std::move(found);
+}
+
 // True if the search from this patch's vertices can meet soft tissue at all.
 bool Mesher::Work::any_soft_near(const math::Ijk& first) const {
   if (soft_bricks.empty()) return false;
@@ -299,6 +336,55 @@ void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_gr
   }
 }
 
+// The share of the most frequent other solid tissue around a vertex, so that the border of two is a
+// soft line and not the stairs of voxels. Weights: a tent of two voxels.
+void Mesher::Work::look_aside(const math::Ijk& voxel, const math::Vec3& p_grid, Vertex& v) const {
+  const math::Ijk& size = bone.grid().size;
+  const auto inside = voxel.array().max(0).min(size.array() - 1).matrix();
+  if (!border_bricks[static_cast<std::size_t>(bone.brick_at(
+          inside.x() / kBrickEdge, inside.y() / kBrickEdge, inside.z() / kBrickEdge))])
+    return;
+  constexpr int kReach = 2, kWide = 2 * kReach + 1;
+  std::array<std::array<double, kWide>, 3> tent{};
+  for (int d = 0; d < 3; ++d)
+    for (int n = 0; n < kWide; ++n)
+      tent[static_cast<std::size_t>(d)][static_cast<std::size_t>(n)] =
+          std::max(0.0, kReach - std::abs(voxel[d] + n - kReach - p_grid[d]));
+  const math::Ijk low = (voxel.array() - kReach).max(0);
+  const math::Ijk high = (voxel.array() + kReach).min(size.array() - 1);
+  double own = 0;
+  struct Other {
+    TissueId tissue = 0;
+    double weight = 0;
+  };
+  std::array<Other, 4> others;  // more do not meet within two voxels
+  for (int k = low.z(); k <= high.z(); ++k)
+    for (int j = low.y(); j <= high.y(); ++j)
+      for (int i = low.x(); i <= high.x(); ++i) {
+        const double weight = tent[0][static_cast<std::size_t>(i - voxel.x() + kReach)] *
+                              tent[1][static_cast<std::size_t>(j - voxel.y() + kReach)] *
+                              tent[2][static_cast<std::size_t>(k - voxel.z() + kReach)];
+        if (weight <= 0) continue;
+        const TissueId tissue = bone.shared_tissue(i, j, k);
+        if (tissue == v.tissue) {
+          own += weight;
+        } else if (bone.tissues()[tissue].kind == volume::TissueKind::solid) {
+          for (Other& other : others) {
+            if (other.weight > 0 && other.tissue != tissue) continue;
+            other.tissue = tissue;
+            other.weight += weight;
+            break;
+          }
+        }
+      }
+  const Other& second =
+      *std::max_element(others.begin(), others.end(),
+                        [](const Other& x, const Other& y) { return x.weight < y.weight; });
+  if (second.weight <= 0) return;
+  v.beneath = second.tissue;
+  v.through = static_cast<std::uint8_t>(std::lround(255 * second.weight / (own + second.weight)));
+}
+
 template <int axis>
 void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   constexpr int kStep[3] = {1, kRow, kApron * kRow};
@@ -336,6 +422,7 @@ void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   vertex[i].through = 0;
   vertex[i].wall = 0;
   if (soft_near) look_beneath(p_grid, (n / std::sqrt(length)).template cast<double>(), vertex[i]);
+  if (vertex[i].through == 0 && !border_bricks.empty()) look_aside(voxel, p_grid, vertex[i]);
   key[i] = EdgeKey{x, y, z, axis}.packed();
   id[static_cast<std::size_t>(axis * kIds + (z * kSamples + y) * kSamples + x)] =
       static_cast<std::uint16_t>(i);

@@ -15,7 +15,8 @@ struct Vertex {
   math::Vec3f p;  // world, LPS                                   [m]
   math::Vec3f n;  // unit, out of the bone, from the field's gradient
   volume::TissueId tissue = 1;
-  // Soft tissue under thin bone here, or filling the hollow that this wall belongs to; 0: none.
+  // Soft tissue under thin bone here, or filling the hollow that this wall belongs to; otherwise
+  // another solid tissue whose border is near; 0: none.
   volume::TissueId beneath = 0;
   std::uint8_t through = 0;  // how much of it shows through, 0..255
   std::uint8_t wall = 0;     // how much of the hollow at this wall it fills, 0..255
