@@ -73,11 +73,12 @@ VICES = {
         "saucer": ["cavity.no-overhang", "sinus.no-overhang"],
         "tremor_mm": [],
     },
+    # defect.level: who errs about the gap fills beside it, who lifts late fills over its border, and so does a hand that drifts
     "jaw": {
-        "perception_mm": ["cut.place", "bed.entry", "bed.end", "bed.angle", "bed.cleared", "bed.one-way"],
-        "unfinished": ["cut.cleared", "bed.depth", "bed.cleared"],
-        "stop_s": ["mouth.intact"],
-        "drift_mm": ["cut.even-behind", "cut.even-front", "bed.width", "bed.one-way"],
+        "perception_mm": ["cut.place", "bed.entry", "bed.end", "bed.angle", "bed.cleared", "bed.one-way", "defect.filled", "defect.level"],
+        "unfinished": ["cut.cleared", "bed.depth", "bed.cleared", "defect.filled"],
+        "stop_s": ["mouth.intact", "defect.level"],
+        "drift_mm": ["cut.even-behind", "cut.even-front", "bed.width", "bed.one-way", "defect.level"],
         "tremor_mm": [],
     },
     "spine": {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -144,6 +145,28 @@ TEST(Cover, KnowsTheBoneOverABall) {
       // at the steep side a layer is looked through aslant, 30 degrees off: up to 13 % more
       EXPECT_LT(std::abs(mean), 0.4 * cover->error + 0.02 * kMm) << h;
       EXPECT_LT(worst, cover->error + 0.15 * t * kMm) << h;
+    }
+}
+
+// A roof that leans by 12 degrees towards the surgeon: its normal is at 78 degrees to the way out, looks go to 50,
+// so none meets it at less than 28 degrees, and a layer reads 1 / cos 28 times as thick. A threshold for
+// a roof has to allow for that.
+TEST(Cover, ARoofIsSeenAslant) {
+  const double lean = 12 * std::numbers::pi / 180, aslant = 28 * std::numbers::pi / 180;
+  const Vec3 up(std::sin(lean), 0, std::cos(lean));
+  test::Plan plan;
+  plan.bone = phantom::slab(up, Vec3::Zero());
+  plan.labels = {{phantom::slab(-up, Vec3::Zero()), test::kNerve}};
+  for (const double h : test::kVoxels)
+    for (const double t : {0.7, 1.0}) {
+      SCOPED_TRACE(testing::Message() << h << ", " << t);
+      const auto cover = cover_of_nerve(test::cut(plan, phantom::slab(up, -t * kMm * up), h), {},
+                                        {.towards = {-Vec3::UnitX()}});
+      ASSERT_TRUE(cover) << cover.reason();
+      std::vector<double> found;
+      for (const CoverSample& one : cover->samples) found.push_back(one.cover);
+      std::sort(found.begin(), found.end());
+      EXPECT_NEAR(found[found.size() / 2], t * kMm / std::cos(aslant), accepted(h));
     }
 }
 

@@ -127,6 +127,8 @@ TEST_F(RegionTest, TheCourseMeasuresAlongItself) {
   EXPECT_DOUBLE_EQ(course.along({5 * kMm, 3 * kMm, 0}), 6 * kMm);
   EXPECT_DOUBLE_EQ(course.along({-5 * kMm, 0, 0}), 0);
   EXPECT_DOUBLE_EQ(course.along({3 * kMm, 9 * kMm, 0}), 7 * kMm);
+  EXPECT_DOUBLE_EQ(course.distance({1 * kMm, -1 * kMm, 0}), 1 * kMm);
+  EXPECT_TRUE(std::isinf(Course{}.distance({0, 0, 0})));
 }
 
 }  // namespace

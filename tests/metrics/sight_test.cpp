@@ -170,8 +170,12 @@ TEST(StrokeDirection, AlongAndAcross) {
     const double a = angle * std::numbers::pi / 180;
     for (std::size_t n = 0; n < strokes.size(); ++n) {
       const double way = n % 2 == 0 ? 1 : -1;
-      strokes[n].to = way * 5 * kMm * Vec3(std::cos(a), std::sin(a), 0);
-      strokes[n].d = (n == 5 ? 3.5 : 2) * kMm;  // the last one is too far away
+      // the surface of the burr comes within 2 mm; on the last one it stays 3.5 mm away
+      const Vec3 beside = (n == 5 ? 5.5 : 4) * kMm * Vec3::UnitZ();
+      strokes[n].from = beside;
+      strokes[n].to = beside + way * 5 * kMm * Vec3(std::cos(a), std::sin(a), 0);
+      strokes[n].radius = 2 * kMm;
+      strokes[n].d = 1 * kMm;  // to what is to be spared: says nothing about the tube
     }
     const auto direction = stroke_direction(strokes, course);
     ASSERT_TRUE(direction) << direction.reason();
@@ -182,7 +186,24 @@ TEST(StrokeDirection, AlongAndAcross) {
   EXPECT_FALSE(stroke_direction({}, course));
   const auto unknown = stroke_direction(std::vector<BurrStroke>(6), course);
   ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.reason(), kNoStrokeDistance);
+  EXPECT_EQ(unknown.reason(), kNoRadius);
+}
+
+// Across the tube, but beside something else: these strokes do not count, however near that is.
+TEST(StrokeDirection, OnlyStrokesNearTheTubeCount) {
+  const Course course = {{{-50 * kMm, 0, 0}, {50 * kMm, 0, 0}}};
+  std::vector<BurrStroke> strokes(15);
+  for (std::size_t n = 0; n < strokes.size(); ++n) {
+    const bool here = n < 5;
+    strokes[n].from = here ? Vec3(0, 2 * kMm, 0) : Vec3(0, 20 * kMm, 0);
+    strokes[n].to = strokes[n].from + 5 * kMm * (here ? Vec3::UnitX() : Vec3::UnitY());
+    strokes[n].radius = 1 * kMm;
+    strokes[n].d = 0.5 * kMm;
+  }
+  const auto direction = stroke_direction(strokes, course);
+  ASSERT_TRUE(direction) << direction.reason();
+  EXPECT_EQ(direction->count, 5U);
+  EXPECT_EQ(direction->along_share, 1);
 }
 
 TEST(SolidContacts, OfTheNearestTissueOnly) {

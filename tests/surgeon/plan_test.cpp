@@ -233,6 +233,90 @@ TEST(StepWork, ADirectionWithoutRoomIsTriedAgain) {
   EXPECT_GT(2 * along, strokes);  // of one try each: 41 %
 }
 
+// A stone of 1.5 mm hangs 3 mm above a floor. What lies below its rim is reached aslant only: straight up the
+// middle of a burr would pass beside the stone, and its side would cut it.
+struct UnderAStone {
+  UnderAStone(const Vec3& region, const Vec3& size)
+      : lesson([&] {
+          scenario::Lesson made = block_lesson();
+          made.approach = {Vec3::UnitZ(), Vec3(0.8, 0, 0.6)};
+          made.regions.front().add.front().a.at = region;
+          made.regions.front().add.front().size = size;
+          return made;
+        }()),
+        seen(believed(*bone, lesson, 0, 1)),
+        spare(spare_of(bone->grid(), lesson, seen, 0)),
+        goal(goal_of(lesson.regions.front(), approach_of(lesson), seen, spare)),
+        work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill(), 1.2 * kMm) {}
+
+  static Skill skill() {
+    Skill one;
+    one.burrs = {1, 1, 1, 1, 0, false};
+    return one;
+  }
+  static std::unique_ptr<volume::Bone> floor_and_stone() {
+    volume::TissueTable tissues;
+    tissues.tissues.push_back({.name = "stone", .cutting_energy = 1e9, .spare = true});
+    phantom::Formula formula;
+    const phantom::Depth stone = phantom::ball(1.5 * kMm, Vec3::Zero());
+    const phantom::Depth floor = phantom::slab(Vec3::UnitZ(), Vec3(0, 0, -3 * kMm));
+    formula.depth = [=](const Vec3& p) { return std::max(floor(p), stone(p)); };
+    formula.tissue = [=](const Vec3& p, double depth) -> volume::TissueId {
+      if (stone(p) > -0.5 * kMm) return 2;
+      return depth > -2 * kMm ? 1 : 0;
+    };
+    NoProgress quiet;
+    auto made = phantom::bone_from_formula(
+        phantom::box_grid(Vec3(-9, -6, -7) * kMm, Vec3(9, 6, 6) * kMm, 0.25 * kMm), tissues,
+        formula, 256, 2, quiet);
+    EXPECT_TRUE(made.ok());
+    return std::move(*made);
+  }
+  // The burr's side meets the stone on the way from here in this direction.
+  static bool hits(const Vec3& from, const Vec3& out) {
+    for (double s = 0; s < 10 * kMm; s += 0.1 * kMm)
+      if ((from + s * out).norm() < (1.5 + 0.6 - 0.2) * kMm) return true;
+    return false;
+  }
+
+  decltype(floor_and_stone()) bone = floor_and_stone();
+  scenario::Lesson lesson;
+  Believed seen;
+  Spare spare;
+  FieldGrid goal;
+  StepWork work;
+};
+
+TEST(StepWork, AStrokeHasAWayOutThatMissesWhatIsSpared) {
+  UnderAStone on(Vec3(1.9, 0, -3.5) * kMm, Vec3(2.4, 3, 1.6) * kMm);
+  people::RandomStream random(1, 3);
+  int strokes = 0;
+  for (int n = 0; n < 40; ++n) {
+    const auto next = on.work.next(*on.bone, Vec3(2, 0, -2) * kMm, {0.6 * kMm}, random);
+    if (!next) continue;
+    ++strokes;
+    EXPECT_FALSE(on.hits(next->stroke.start, next->stroke.out))
+        << next->stroke.start.transpose() << ", " << next->stroke.out.transpose();
+  }
+  EXPECT_GT(strokes, 5);
+}
+
+TEST(StepWork, APlaceIsLeftOnItsOwnWayOut) {
+  UnderAStone on(Vec3(-7, 0, -3.5) * kMm, Vec3(3, 6, 1.6) * kMm);
+  people::RandomStream random(1, 3);
+  const Vec3 hand = Vec3(1.6, 0, -2.3) * kMm;
+  ASSERT_TRUE(on.hits(hand, Vec3::UnitZ()));
+  std::optional<NextStroke> next;
+  HeldBurr held;  // after a change of burrs the way is made anew
+  for (int n = 0; n < 20 && !(next && next->burr == held); ++n) {
+    if (next) held = next->burr;
+    next = on.work.next(*on.bone, hand, held, random);
+  }
+  ASSERT_TRUE(next && next->burr == held);
+  ASSERT_EQ(next->stroke.points, 3);
+  EXPECT_FALSE(on.hits(hand, (next->stroke.way[0] - hand).normalized()));
+}
+
 TEST(StepWork, AGrooveIsCutAlong) {
   Skill skill;
   skill.along = 1;

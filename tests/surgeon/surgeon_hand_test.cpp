@@ -148,6 +148,37 @@ TEST(SurgeonHand, LiftsAlongTheWayOut) {
   EXPECT_LT(away, -1 * kMm);
 }
 
+// The plan is a ridge: from its crest there is room for 0.3 mm to either side. Nobody goes to and fro there for
+// the whole bout.
+TEST(SurgeonHand, GivesUpABoutThatHasNoRoom) {
+  FieldGrid goal = goal_above(-1);
+  for (std::size_t n = 0; n < goal.nodes(); ++n)
+    goal.value[n] = static_cast<float>(kRadius + 0.3 * kMm - std::abs(goal.node(n).x()));
+  SurgeonHand hand(steady(0.1), kTick, 1, Vec3(0, 0, 0), Vec3::UnitZ());
+  hand.look_at(&goal, nullptr);
+  hand.begin(downwards(Vec3(0, 0, 0)), kRadius);
+  int ticks = 0;
+  for (; ticks < 3000 && !hand.free(); ++ticks) static_cast<void>(hand.state(kTick));
+  EXPECT_LT(kTick * ticks, 0.7);  // a bout takes 1.5 s
+}
+
+// A wall that does not give way, 1 mm from the start: the hand does not lean on it for the rest of the bout.
+TEST(SurgeonHand, SweepsBackWhereItIsHeldUp) {
+  const FieldGrid goal = goal_above(-1);
+  SurgeonHand hand(steady(0.1), kTick, 1, Vec3(0, 0, 0), Vec3::UnitZ());
+  hand.look_at(&goal, nullptr);
+  hand.begin(downwards(Vec3(0, 0, 0)), kRadius);
+  bool met = false, back = false;
+  for (int n = 0; n < 1400; ++n) {
+    const Vec3 p = hand.state(kTick).world_from_tool.p;
+    hand.write_force(1000 * Vec3(std::min(0.0, 1 * kMm - p.x()), 0, std::max(0.0, -p.z())));
+    met = met || p.x() > 1.8 * kMm;
+    back = back || (met && p.x() < 0.3 * kMm);
+  }
+  EXPECT_TRUE(met);
+  EXPECT_TRUE(back);
+}
+
 TEST(SurgeonHand, RetreatsWithThePedalUpAndWaits) {
   SurgeonHand hand(steady(0.1), kTick, 1, Vec3::Zero(), Vec3::UnitZ());
   EXPECT_TRUE(hand.waiting());

@@ -206,6 +206,25 @@ TEST(CheckLabels, AFaultMayBeAcceptedByName) {
   EXPECT_EQ(wrong.error().trouble, Trouble::usage);
 }
 
+TEST(CheckLabels, TheSentenceNamesTheLineOfTheFirstFault) {
+  const auto bone = bone_of([](const Vec3&) { return TissueId{0}; });
+  // title and format take two lines
+  const std::string three =
+      "[[structure]]\nname = \"nerve\"\n\n[[structure]]\nname = \"vein\"\n"
+      "[[structure]]\nname = \"drum\"\n";
+  const Status all = as_expected(check(three, *bone), "my.toml");
+  ASSERT_FALSE(all);
+  EXPECT_EQ(all.error().trouble, Trouble::data);
+  EXPECT_EQ(all.error().text,
+            "my.toml: line 3: 3 labels are not as the case expects; \"nerve\": its label is empty; "
+            "mend the label, give the case another range, or accept it with --accept-label "
+            "\"nerve\"");
+  const Status some = as_expected(check(three, *bone, {"nerve", "drum"}), "my.toml");
+  ASSERT_FALSE(some);
+  EXPECT_EQ(some.error().text.rfind("my.toml: line 6: 1 label is not", 0), 0U) << some.error().text;
+  EXPECT_TRUE(as_expected(check(three, *bone, {"nerve", "drum", "vein"}), "my.toml"));
+}
+
 // ---- real bones
 
 LabelFigures facial_nerve_of(const std::string& file) {

@@ -65,21 +65,6 @@ nlohmann::json json_of(const workshop::LabelFinding& one) {
           {"accepted", one.accepted}};
 }
 
-// The first fault as the sentence of the error; the others have been printed.
-Status verdict(const std::vector<workshop::LabelFinding>& findings, const std::string& file) {
-  std::size_t bad = 0;
-  const workshop::LabelFinding* first = nullptr;
-  for (const workshop::LabelFinding& one : findings)
-    if (!one.faults.empty() && !one.accepted && bad++ == 0) first = &one;
-  if (bad == 0) return fine();
-  return error(
-      Trouble::data,
-      fmt::format("{}: {} not as the case expects; \"{}\": {}; mend the label, give the "
-                  "case another range, or accept it with --accept-label \"{}\"",
-                  file, counted(bad, "label is", "labels are"), base::printable(first->structure),
-                  first->faults.front(), base::printable(first->structure)));
-}
-
 Status run_check(const Options& options) {
   const auto work = scenario::read_case(options.name);
   if (!work) return work.error();
@@ -112,7 +97,7 @@ Status run_check(const Options& options) {
                                                 {"steps", lesson->steps.size()},
                                                 {"labels", labels}}));
   }
-  return verdict(*findings, file);
+  return workshop::as_expected(*findings, file);  // the other faults have been printed
 }
 
 // ---- case new

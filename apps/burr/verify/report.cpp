@@ -126,8 +126,13 @@ std::string Report::markdown() const {
       "with a real drill in the hand yet. Until somebody has, burr is for learning how such a "
       "simulator works. It is not for judging people, and it is no medical device.\n\n"
       "The marks of a session are compared with scripted surgeons of known faults: "
-      "[acceptance.md](acceptance.md) has the figures. That proves that items of a rubric respond "
-      "to those faults. It does not prove that a surgeon would agree with a mark.\n\n"
+      "[acceptance.md](acceptance.md) has the figures. That shows which items of a rubric "
+      "respond to faults that were put in. A surgeon without errors shows whether what a "
+      "rubric asks for can be done; the page says which items it misses. Neither proves "
+      "that a person would agree with a mark or with the order of two, that a threshold is "
+      "right (all are defaults), that a person's faults are like the scripted ones, or "
+      "anything about real bones: the cases are formulas, one bone each, and the people who "
+      "wrote the measures wrote the surgeons.\n\n"
       "| part | checks | failed |\n|---|---|---|\n";
   for (const Part& part : parts_)
     text += row_of({part.title, std::to_string(part.checks.size()), std::to_string(part.failed())});

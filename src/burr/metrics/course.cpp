@@ -1,5 +1,6 @@
 #include "burr/metrics/course.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 
@@ -36,6 +37,13 @@ Vec3 Course::direction(const Vec3& p) const {
     direction = way;
   }
   return direction;
+}
+
+double Course::distance(const Vec3& p) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 1; n < points.size(); ++n)
+    nearest = std::min(nearest, math::norm(p - nearest_on_segment(p, points[n - 1], points[n]).at));
+  return nearest;
 }
 
 }  // namespace burr::metrics

@@ -17,6 +17,8 @@ struct Course {
   [[nodiscard]] double along(const math::Vec3& p) const;
   // Unit, of the piece that is nearest to p; zero where there is no piece of any length.
   [[nodiscard]] math::Vec3 direction(const math::Vec3& p) const;
+  // From p to the nearest place on it; infinite where there are fewer than two points.
+  [[nodiscard]] double distance(const math::Vec3& p) const;
 };
 
 }  // namespace burr::metrics

@@ -2,7 +2,8 @@
 //
 //     |cos| of the angle between a stroke's chord and the tube's direction where it is nearest
 //
-// for strokes whose least distance d to the critical structures is at most 3 mm. 1: along the tube.
+// for strokes on which the burr's surface comes within 3 mm of the tube's course. 1: along the tube.
+// Strokes near other structures do not count: beside a sinus there is no reason to follow a nerve.
 // Frame: world. Thread: any.
 #pragma once
 
@@ -18,7 +19,7 @@ namespace burr::metrics {
 
 inline constexpr double kAlong = 0.7;  // |cos| of a stroke that runs along [-]
 
-// |cos| of one stroke; none: its d is more than 3 mm or not known.
+// |cos| of one stroke; none: the burr stays more than 3 mm away, or its radius is not known.
 [[nodiscard]] std::optional<double> along(const BurrStroke& stroke, const Course& course);
 
 struct StrokeDirection {
@@ -27,7 +28,8 @@ struct StrokeDirection {
   double along_share = 0;  // of the strokes, with |cos| >= kAlong
 };
 
-// Not assessable: fewer than 5 such strokes, or a course of fewer than two points.
+// Not assessable: fewer than 5 such strokes, strokes of which no burr has a radius, or a course of
+// fewer than two points.
 [[nodiscard]] Assessed<StrokeDirection> stroke_direction(const std::vector<BurrStroke>& strokes,
                                                          const Course& course);
 

@@ -39,6 +39,7 @@ void add(const Piece& part, std::vector<BurrStroke>& strokes) {
   stroke.end = part.back().t;
   stroke.from = part.front().p;
   stroke.to = part.back().p;
+  stroke.radius = part.back().radius;
   for (std::size_t n = 0; n < part.size(); ++n) {
     if (n > 0) stroke.length += math::norm(part[n].p - part[n - 1].p);
     stroke.d = std::fmin(stroke.d, part[n].d);  // of a number and none it takes the number

@@ -30,6 +30,7 @@ struct BurrStroke {
   math::Vec3 from = math::Vec3::Zero(), to = math::Vec3::Zero();
   double length = 0;       // along the way [m]
   double d = kNoDistance;  // the least to the critical structures on it; kNoDistance: not known [m]
+  double radius = 0;       // of the burr; 0: not known [m]
   [[nodiscard]] double seconds() const { return end - begin; }
   [[nodiscard]] double straightness() const;  // chord / length, 0 .. 1
 };

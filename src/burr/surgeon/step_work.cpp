@@ -23,6 +23,8 @@ constexpr double kInside = 0.1e-3;    // of the burr: bone there is cut [m]
 // A stroke goes on where the plan is too narrow by less than this, and the hand lifts there: the
 // plan is known on a grid and curves, and a stroke is straight [m].
 constexpr double kSlack = 0.1e-3;
+constexpr double kOutSlack =
+    0.2e-3;                        // the same on the way out, which is known on the grid only [m]
 constexpr double kClear = 0.3e-3;  // above the bone before a stroke [m]
 constexpr double kAway = 60e-3;    // a way out is looked at this far [m]
 constexpr int kDirections = 4;     // of a stroke that are tried
@@ -208,6 +210,26 @@ Vec3 StepWork::direction(const Vec3& q, const Vec3& into, people::RandomStream& 
   return along;
 }
 
+// A burr that goes out from here meets nothing that must stay whole. The plan is what is reached from any
+// of the directions to the surgeon, so each place has to be asked.
+bool StepWork::is_way_out(const Vec3& p, const Vec3& out, double radius) const {
+  for (double s = 0; s < kAway; s += 0.5e-3)
+    if (spare_.free.at(p + s * out) < radius - kOutSlack) return false;
+  return true;
+}
+
+// Where a burr of this radius, raised from p along `up`, is clear of the bone on its side `from`.
+Vec3 StepWork::above_bone(const volume::Bone& bone, const Vec3& p, const Vec3& from, const Vec3& up,
+                          double radius) const {
+  Vec3 start = p;
+  double lifted = 0;
+  while (lifted < radius + 2e-3 && !in_air(bone, start - (radius - voxel_) * from)) {
+    start += 0.5 * voxel_ * up;
+    lifted += 0.5 * voxel_;
+  }
+  return start + kClear * up;
+}
+
 void StepWork::set_way(const volume::Bone& bone, const Vec3& hand, NextStroke& next) const {
   Stroke& stroke = next.stroke;
   const Vec3 way = stroke.start - hand;
@@ -219,12 +241,18 @@ void StepWork::set_way(const volume::Bone& bone, const Vec3& hand, NextStroke& n
     // soft tissue is no bone: only this keeps a turning burr out of it
     near = in_air(bone, p) && spare_.free.at(p) >= next.burr.radius - kSlack;
   }
-  const auto above = [&](const Vec3& p) {
-    return Vec3(p + next.out * std::max(2e-3, top_ + kAbove - p.dot(next.out)));
+  const auto above = [&](const Vec3& p, const Vec3& out) {
+    const Vec3& first = approach_.front();  // along which top_ is told
+    return Vec3(p + out * std::max(2e-3, (top_ + kAbove - p.dot(first)) / out.dot(first)));
   };
+  // the place that is left may have another way out than the next one
+  const auto leave = std::find_if(approach_.begin(), approach_.end(), [&](const Vec3& out) {
+    return is_way_out(hand, out, next.burr.radius);
+  });
   stroke.idle_way = !near;
-  stroke.way[0] = near ? Vec3(hand + up) : above(hand);
-  if (!near) stroke.way[1] = above(stroke.start);
+  stroke.way[0] =
+      near ? Vec3(hand + up) : above(hand, leave != approach_.end() ? *leave : next.out);
+  if (!near) stroke.way[1] = above(stroke.start, next.out);
   stroke.points = near ? 2 : 3;
   stroke.way[static_cast<std::size_t>(stroke.points - 1)] = stroke.start + up;
 }
@@ -249,15 +277,15 @@ std::optional<NextStroke> StepWork::stroke_at(const volume::Bone& bone, const No
       if (!deepest) continue;
       from = (*deepest - q).normalized();
     }
-    Vec3 start = *deepest;
-    double lifted = 0;
-    while (lifted < radius + 2e-3 && !in_air(bone, start - (radius - voxel_) * from)) {
-      start += 0.5 * voxel_ * from;
-      lifted += 0.5 * voxel_;
+    // the burr is let down along the normal, or in a narrow place along the way out
+    Vec3 start;
+    bool clear = false;
+    for (const Vec3& up : {from, out}) {
+      start = above_bone(bone, *deepest, from, up, radius);
+      clear = is_way_out(start, out, radius);
+      for (double s = 0; clear && s < kAway; s += 1e-3) clear = in_air(bone, start + s * out);
+      if (clear) break;
     }
-    start += kClear * from;
-    bool clear = true;
-    for (double s = 0; clear && s < kAway; s += 1e-3) clear = in_air(bone, start + s * out);
     if (!clear) continue;
     Stroke& stroke = next.stroke;
     next.out = out;

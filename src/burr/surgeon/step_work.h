@@ -67,6 +67,10 @@ class StepWork final : public Work {
                                                     people::RandomStream& random) const;
   [[nodiscard]] math::Vec3 direction(const math::Vec3& q, const math::Vec3& into,
                                      people::RandomStream& random) const;
+  [[nodiscard]] math::Vec3 above_bone(const volume::Bone& bone, const math::Vec3& p,
+                                      const math::Vec3& from, const math::Vec3& up,
+                                      double radius) const;
+  [[nodiscard]] bool is_way_out(const math::Vec3& p, const math::Vec3& out, double radius) const;
   void set_way(const volume::Bone& bone, const math::Vec3& hand, NextStroke& next) const;
   [[nodiscard]] std::size_t best(const math::Vec3& hand, const HeldBurr& held,
                                  people::RandomStream& random);

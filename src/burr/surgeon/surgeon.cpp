@@ -150,12 +150,12 @@ Consulted Surgeon::consult(const volume::Bone& bone) {
     if (work_->left() <= 0 || work_->exhausted()) end_step(out);
     return out;
   }
-  out_ = next->out;
   if (!(next->burr == held_)) {
     wanted_ = next->burr;
-    working_->retreat(out_, kAboveStart);
+    working_->retreat(out_, kAboveStart);  // on the way out of the place that is left
     return out;
   }
+  out_ = next->out;
   look_from(bone, *next, out);
   working_->begin(next->stroke, held_.radius);
   return out;

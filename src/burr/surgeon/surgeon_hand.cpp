@@ -21,6 +21,10 @@ constexpr double kBrake = 0.2;     // it slows down this long before the goal en
 constexpr double kLift = 2e-3;     // [m/s]
 constexpr double kAhead = 0.5e-3;  // a stroke turns this far before the goal ends [m]
 constexpr double kSlack = 0.1e-3;  // by more than this; it lifts where less is missing [m]
+constexpr double kHeldUp = 0.1;    // slower than this share of its speed, a stroke is held up [-]
+constexpr double kPatience = 0.2;  // and turns after so long [s]
+constexpr double kBrief = 2e-3;    // between two turns: no stroke [m]
+constexpr int kMostBrief = 3;      // one after the other
 constexpr double kFarAway = 4e-3;  // beyond it the force is the whole one [m]
 constexpr double kTurning = 4.0;   // of the shaft [1/s]
 constexpr double kFills = 0.8;     // radius of what is added at a place, of the burr's [-]
@@ -101,6 +105,8 @@ void SurgeonHand::reach_bone() BURR_RT {
   done_ = 0;
   sense_ = 1;
   rooms_.fill(adds_ ? 0 : 1);  // who adds looks first
+  turned_ = held_up_ = 0;
+  brief_ = 0;
 }
 
 void SurgeonHand::go(double dt) BURR_RT {
@@ -149,12 +155,22 @@ void SurgeonHand::stroke(double dt) BURR_RT {
   // out of the plan: back. Who is out already may go where it is no worse, and lifts.
   const double ahead = room(burr + stroke_.along * (sense_ * kAhead));
   const bool leaves = ahead < -kSlack && ahead < here;
-  if (over || leaves) {
-    sense_ = -sense_;
-    return;
-  }
+  // a hand that is held up sweeps back: the next pass takes a layer off what stood in the way
+  held_up_ = pace < kHeldUp * skill_.speed ? held_up_ + dt : 0;
+  if (over || leaves || held_up_ > kPatience) return turn(over || leaves);
   at_ += onwards;
   done_ += sense_ * pace * dt;
+}
+
+// at_end: of the stroke or of the plan. Where the plan has ended nearly all along the stroke, the hand would
+// go to and fro on the spot: then the bout is over.
+void SurgeonHand::turn(bool at_end) BURR_RT {
+  const bool brief = std::abs(done_ - turned_) < std::min(kBrief, 0.5 * stroke_.length);
+  brief_ = at_end && brief ? brief_ + 1 : 0;
+  if (brief_ >= kMostBrief) stroked_ += kBout;
+  turned_ = done_;
+  held_up_ = 0;
+  sense_ = -sense_;
 }
 
 device::HandState SurgeonHand::state(double dt) BURR_RT {

@@ -79,6 +79,7 @@ class SurgeonHand final : public device::Device {
 
   void go(double dt) BURR_RT;
   void stroke(double dt) BURR_RT;
+  void turn(bool at_end) BURR_RT;
   void reach_bone() BURR_RT;
   [[nodiscard]] double room(const math::Vec3& p) const BURR_RT;
 
@@ -95,6 +96,9 @@ class SurgeonHand final : public device::Device {
   double done_ = 0;     // along the stroke [m]
   double sense_ = 1;    // +1 forwards, -1 back
   double stroked_ = 0;  // time of this stroke [s]
+  double turned_ = 0;   // where along the stroke it last turned [m]
+  double held_up_ = 0;  // for so long [s]
+  int brief_ = 0;       // turns of late with hardly a way between them
   bool finished_ = false, leaving_ = false, adds_ = false;
   bool full_ = false;  // what is filled has come up to the plan, as the surgeon saw a delay ago
   math::Vec3 at_, last_, force_ = math::Vec3::Zero(), shaft_;

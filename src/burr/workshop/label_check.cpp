@@ -295,6 +295,7 @@ Result<std::vector<LabelFinding>> check_labels(const scenario::Lesson& lesson,
     if (progress.cancelled()) return error(Trouble::interrupted, "stopped");
     LabelFinding& finding = findings.emplace_back();
     finding.structure = one.name;
+    finding.line = one.line;
     finding.accepted = std::find(accepted.begin(), accepted.end(), one.name) != accepted.end();
     const std::vector<TissueId> ids = tissues_of(one, bone.tissues());
     for (const TissueId id : ids) finding.tissues.push_back(bone.tissues().tissues[id].name);
@@ -309,6 +310,21 @@ Result<std::vector<LabelFinding>> check_labels(const scenario::Lesson& lesson,
   }
   progress.report(1, "looking at the labels");
   return findings;
+}
+
+Status as_expected(const std::vector<LabelFinding>& findings, const std::string& file) {
+  std::size_t bad = 0;
+  const LabelFinding* first = nullptr;
+  for (const LabelFinding& one : findings)
+    if (!one.faults.empty() && !one.accepted && bad++ == 0) first = &one;
+  if (first == nullptr) return fine();
+  return error(
+      Trouble::data,
+      fmt::format("{}: line {}: {} {} not as the case expects; \"{}\": {}; mend the label, give "
+                  "the case another range, or accept it with --accept-label \"{}\"",
+                  file, first->line, bad, bad == 1 ? "label is" : "labels are",
+                  base::printable(first->structure), first->faults.front(),
+                  base::printable(first->structure)));
 }
 
 std::vector<scenario::Landmark> landmarks_of(const scenario::Case& work) {

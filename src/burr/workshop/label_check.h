@@ -8,6 +8,7 @@
 // structure.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ struct LabelFigures {
 
 struct LabelFinding {
   std::string structure;
+  std::uint32_t line = 0;            // of the structure in the case's file
   std::vector<std::string> tissues;  // by their names in the bone; empty: the bone lacks it
   LabelFigures figures;
   std::vector<std::string> faults;  // sentences without the structure's name; empty: as expected
@@ -55,6 +57,11 @@ struct LabelFinding {
 [[nodiscard]] Result<std::vector<LabelFinding>> check_labels(
     const scenario::Lesson& lesson, const volume::Bone& bone,
     const std::vector<std::string>& accepted, Progress& progress);
+
+// Error: one sentence about the first structure whose label is not as expected and not accepted, with
+// file, line, fault and remedy, and how many there are. file: as it is to be shown.
+[[nodiscard]] Status as_expected(const std::vector<LabelFinding>& findings,
+                                 const std::string& file);
 
 // The landmarks of the bone that a case is about: those of a formula; none for a scan.
 [[nodiscard]] std::vector<scenario::Landmark> landmarks_of(const scenario::Case& work);
