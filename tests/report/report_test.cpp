@@ -165,6 +165,20 @@ TEST(SelfMarks, NameFileLineFieldAndRemedyOfAMistake) {
 }
 
 // The table of translations is by the English text, so that text must be the library's.
+// Nobody did anything wrong where too little was done: it is not "not met", and no cross stands there.
+TEST(ReportWords, AGateThatWasNotEarnedReadsAsSuchInTheListToo) {
+  speak("en");
+  scoring::Item gate, plain;
+  gate.gate = true;
+  Outcome outcome = with("gate", Verdict::unmet, 0.0);
+  EXPECT_EQ(mark_of(gate, outcome).tone, Tone::bad);
+  outcome.earned = false;
+  EXPECT_EQ(mark_of(gate, outcome).word, gate_mark(outcome).word);
+  EXPECT_EQ(mark_of(gate, outcome).word, word(Word::report_gate_unearned));
+  EXPECT_EQ(mark_of(gate, outcome).tone, Tone::open);
+  EXPECT_EQ(mark_of(plain, outcome).word, word(Word::report_verdict_unmet));
+}
+
 TEST(ReportWords, KnowWhatTheLibraryCallsItsValues) {
   std::string library;
   for (const char* file :

@@ -165,8 +165,8 @@ TEST(Lesson, EveryFieldIsReadInMetres) {
 TEST(Lesson, NamesOfLandmarksBecomePoints) {
   auto read = parse_lesson(kGood, "my.toml");
   ASSERT_TRUE(read) << read.error().text;
-  const Landmark of_the_bone[] = {{"entry", {math::Vec3(9, 9, 9)}, {}, 0},
-                                  {"antrum", {math::Vec3(1, 0, 0)}, {}, 0}};
+  const Landmark of_the_bone[] = {{"entry", {}, {math::Vec3(9, 9, 9)}, {}, 0},
+                                  {"antrum", {}, {math::Vec3(1, 0, 0)}, {}, 0}};
   const auto placed = place(*read, of_the_bone, "my.toml");
   ASSERT_TRUE(placed) << placed.error().text;
   const CaseRegion& way = *placed->region("way");
@@ -413,6 +413,25 @@ TEST(Lesson, BuiltInCasesOfFormatTwoSpeakThreeLanguages) {
     for (const Complication& one : lesson->complications) EXPECT_TRUE(complete(one.say)) << one.id;
   }
   EXPECT_GE(count, 1);
+}
+
+// A case may name a landmark that its bone has, without saying again where it is.
+TEST(Lesson, ATitleAloneNamesALandmarkOfTheBone) {
+  const std::string with =
+      std::string(kGood) +
+      "[[landmark]]\nname = \"spine\"\ntitle = { en = \"spine\", sv = \"tagg\" }\n"
+      "[[landmark]]\nname = \"nowhere\"\ntitle = \"nowhere\"\n";
+  auto read = parse_lesson(with, "c.toml");
+  ASSERT_TRUE(read) << read.error().text;
+  const Landmark bones[] = {{"spine", {}, {math::Vec3(1, 2, 3)}, {}, 0}};
+  const auto placed = place(std::move(*read), bones, "c.toml");
+  ASSERT_TRUE(placed) << placed.error().text;
+  ASSERT_NE(placed->landmark("spine"), nullptr);
+  EXPECT_EQ(placed->landmark("spine")->title.in("sv"), "tagg");
+  ASSERT_EQ(placed->landmark("spine")->points.size(), 1U);
+  EXPECT_EQ(placed->landmark("spine")->points[0], math::Vec3(1, 2, 3));
+  EXPECT_EQ(placed->landmark("nowhere"), nullptr) << "the bone has none";
+  EXPECT_FALSE(parse_lesson(std::string(kGood) + "[[landmark]]\nname = \"bare\"\n", "c.toml"));
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 #include "burr/scenario/built_in.h"
+#include "burr/scenario/case.h"
 #include "burr/scenario/open_lesson.h"
+#include "burr/workshop/label_check.h"
 #include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 
@@ -37,6 +40,46 @@ TEST_F(CaseTitles, HoldForStructuresAndForTissuesThatBurrDoesNotKnow) {
   EXPECT_EQ(anatomy("n7"), "seventh nerve") << "English where the language is missing";
   take_titles_of(nullptr);
   EXPECT_EQ(anatomy("n7"), "n7");
+}
+
+// Whatever a step lights has a name in the user's language.
+TEST_F(CaseTitles, OfPlacesThatAStepLightsAreThereInEveryLanguage) {
+  for (const std::string& name : scenario::built_in_cases()) {
+    const auto work = scenario::read_case(name);
+    ASSERT_TRUE(work) << work.error().text;
+    auto read = scenario::lesson_of(*work);
+    ASSERT_TRUE(read) << read.error().text;
+    const auto lesson = scenario::place(std::move(*read), workshop::landmarks_of(*work), name);
+    ASSERT_TRUE(lesson) << lesson.error().text;
+    for (const scenario::Step& step : lesson->steps)
+      for (const std::string& shown : step.show) {
+        const auto* mark = lesson->landmark(shown);
+        const auto* region = lesson->region(shown);
+        const auto* structure = lesson->structure(shown);
+        for (const Language& language : languages())
+          EXPECT_TRUE(
+              (structure != nullptr && structure->title.by_language.contains(language.code)) ||
+              (region != nullptr && region->title.by_language.contains(language.code)) ||
+              (mark != nullptr && mark->title.by_language.contains(language.code)))
+              << name << " " << shown << " " << language.code;
+      }
+  }
+}
+
+TEST_F(CaseTitles, HoldForPlacesBeforeThoseOfStructures) {
+  scenario::Lesson lesson;
+  scenario::Landmark& line = lesson.landmarks.emplace_back();
+  line.name = "temporal line";
+  line.title.by_language = {{"sv", "linea temporalis"}};
+  scenario::CaseRegion& room = lesson.regions.emplace_back();
+  room.name = "antrum";
+  room.title.by_language = {{"sv", "antrums rum"}};
+  take_titles_of(&lesson);
+  speak("sv");
+  EXPECT_EQ(place_name("temporal line"), "linea temporalis");
+  EXPECT_EQ(place_name("antrum"), "antrums rum");
+  EXPECT_EQ(anatomy("antrum"), "antrum") << "the tissue keeps its own name";
+  EXPECT_EQ(place_name("incus"), anatomy("incus"));
 }
 
 TEST_F(CaseTitles, OfTheBuiltInCasesAreThereInEveryLanguageAndTellStructuresApart) {

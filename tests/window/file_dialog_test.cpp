@@ -47,21 +47,26 @@ class FileDialogWindow : public Window {
 };
 
 TEST_F(FileDialogWindow, ListsFoldersFirstAndHidesTheRest) {
-  const auto some = entries_of(home() / "scans", false);
+  const auto some = entries_of(home() / "scans", Listed::burr_reads);
   ASSERT_TRUE(some) << some.error().text;
   ASSERT_EQ(some->size(), 2U);
   EXPECT_EQ((*some)[0].name, "anna.nrrd");
   EXPECT_EQ((*some)[1].name, "karin.nrrd");
   EXPECT_GT((*some)[1].bytes, 20'000U);
-  const auto all = entries_of(home() / "scans", true);
+  const auto all = entries_of(home() / "scans", Listed::all);
   ASSERT_TRUE(all);
   EXPECT_EQ(all->size(), 3U) << "hidden files are not listed";
-  const auto top = entries_of(home(), false);
+  const auto top = entries_of(home(), Listed::burr_reads);
   ASSERT_TRUE(top);
   ASSERT_EQ(top->size(), 2U);
   EXPECT_EQ((*top)[0].name, "Bilder") << "large and small letters do not matter";
   EXPECT_TRUE((*top)[1].folder);
-  EXPECT_FALSE(entries_of(home() / "nowhere", false));
+  EXPECT_FALSE(entries_of(home() / "nowhere", Listed::burr_reads));
+  std::ofstream(home() / "scans" / "Session.MCAP") << "x";
+  const auto recordings = entries_of(home() / "scans", Listed::recordings);
+  ASSERT_TRUE(recordings);
+  ASSERT_EQ(recordings->size(), 1U) << "no scan can be played";
+  EXPECT_EQ((*recordings)[0].name, "Session.MCAP");
 }
 
 // letters find "scans", Enter goes in, an arrow goes to the second file, Enter opens it

@@ -225,7 +225,7 @@ int halves_differ(const render::Image& image) {
   const int half = image.width / 2;
   int count = 0;
   for (int y = 64; y + kSide <= 460; y += kSide)
-    for (int x = 16; x + kSide <= half - 16; x += kSide) {
+    for (int x = 96; x + kSide <= half - 16; x += kSide) {  // right of the buttons
       std::array<int, 3> by = {};
       for (int n = 0; n < kSide * kSide; ++n) {
         const int at = (y + n / kSide) * image.width + x + n % kSide;
@@ -449,9 +449,9 @@ TEST_F(TwoReplays, OfOneSessionHaveTheSameSlices) {
 // ---- films
 
 // the middle of what the export page has, at 1280 x 720
-void click_write() { click(280 + 612, 155 + 288); }
-void click_pictures() { click(280 + 181, 155 + 126); }
-void click_stop() { click(280 + 447, 155 + 288); }
+void click_write() { click(280 + 612, 144 + 310); }
+void click_pictures() { click(280 + 181, 144 + 126); }
+void click_stop() { click(280 + 287, 144 + 310); }
 
 fs::path frame(const fs::path& folder, int number) {
   return folder / fmt::format("frame_{:06d}.png", number);

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -14,13 +15,16 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "burr/record/player.h"
+#include "report/marked.h"
 #include "report/questions.h"
 #include "user.h"
 #include "window/review/self_marks_page.h"
 #include "window/start/sessions.h"
+#include "window/start/start_page.h"
 
 namespace burr::app {
 namespace {
@@ -119,6 +123,69 @@ say = "Clear the groove."
   for (const record::CourseEvent& event : (*player)->course())
     if (event.kind == record::CourseKind::self_mark) own.push_back(event.what + " " + event.value);
   EXPECT_EQ(own, std::vector<std::string>{"groove.mine met"});
+
+  // the bar that shows how far burr is only grows, and is not full before the end
+  struct Shares final : Progress {
+    std::vector<double> all;
+    void report(double fraction, std::string_view /*stage*/) override { all.push_back(fraction); }
+    [[nodiscard]] bool cancelled() const override { return false; }
+  } shares;
+  const auto again = marked(kept()[0].file.string(), kept()[0].rubric, {}, shares);
+  ASSERT_TRUE(again) << again.error().text;
+  ASSERT_GT(shares.all.size(), 4U);
+  EXPECT_TRUE(std::is_sorted(shares.all.begin(), shares.all.end()));
+  EXPECT_LT(shares.all[shares.all.size() / 4], 0.7);
+  EXPECT_LT(shares.all.back(), 1);
+}
+
+// Enter goes on from the own marks. A report that is asked for and not waited for is written all the
+// same, and the start page says so.
+TEST_F(ReviewWindow, EnterGoesOnAndAReportThatIsNotWaitedForIsWritten) {
+  const char* set = std::getenv("PATH");
+  const std::string path = set != nullptr ? set : "";
+  ::setenv("PATH", "/nowhere", 1);  // no browser
+  auto steps = cut();
+  add(steps, done());
+  std::string goes_on, written;
+  add(steps,
+      {{"own marks", on(Page::self_marks), nullptr},
+       {"a picture", looks(5), [] { press(SDLK_RETURN); }},
+       {"the marks", [&] { return desk_->page == Page::review && told("items met"); },
+        [] { click(125, 683); }},
+       {"it writes", [&] { return told(word(Word::review_writes)); }, [] { press(SDLK_ESCAPE); }},
+       {"the start page", on(Page::start), [&] { goes_on = desk_->told; }},
+       {"written", [&] { return desk_->told != goes_on; },
+        [&] {
+          written = desk_->told;
+          click(400, 638);
+        }},
+       {"the line is clicked away", [&] { return desk_->told.empty(); },
+        [] { press(SDLK_ESCAPE); }}});
+  work_by(record::Mode::learn, std::move(steps));
+  ::setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(kept().size(), 1U);
+  const std::string page = fs::path(kept()[0].file).replace_extension(".html").string();
+  EXPECT_EQ(goes_on, say(Word::review_goes_on, page));
+  EXPECT_EQ(written, say(Word::review_written, page));
+  EXPECT_TRUE(fs::exists(page));
+}
+
+// A scan of one's own has no steps: what guides through them ends with the case.
+TEST_F(ReviewWindow, AScanOfOnesOwnIsNotInTheModeOfTheCaseBefore) {
+  const auto mode_of = [&](const fs::path& file, record::Mode mode) {
+    record::Identity identity;
+    identity.mode = mode;
+    StartPage page(*desk_, {}, identity);
+    drop(file);
+    auto choice = page.ask("", 20);
+    EXPECT_TRUE(choice && choice->open);
+    return choice && choice->open ? choice->open->identity.mode : record::Mode::free;
+  };
+  using record::Mode;
+  EXPECT_EQ(mode_of(scan(), Mode::learn), Mode::free);
+  EXPECT_EQ(mode_of(scan(), Mode::practise), Mode::free);
+  EXPECT_EQ(mode_of(scan(), Mode::exam), Mode::exam);
+  EXPECT_EQ(mode_of(folder_ / "block.toml", Mode::learn), Mode::learn);
 }
 
 TEST_F(ReviewWindow, AnExamEndsWithoutMarks) {

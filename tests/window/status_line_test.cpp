@@ -36,5 +36,20 @@ TEST(StatusLine, IsGoneAfterItsTime) {
   EXPECT_EQ(told.warning(after, ""), "");
 }
 
+// What somebody waited for is there when he comes back.
+TEST(StatusLine, AKeptNoteStaysUntilItIsForgottenOrAnotherOneComes) {
+  StatusLine told;
+  told.keep("Written: film.mp4");
+  EXPECT_TRUE(told.kept());
+  EXPECT_EQ(told.note(kStart + std::chrono::hours(1), ""), "Written: film.mp4");
+  told.note("sound off", kStart);
+  EXPECT_FALSE(told.kept());
+  told.forget_kept();
+  EXPECT_EQ(told.note(kStart, ""), "sound off") << "only a kept one is clicked away";
+  told.keep("Written: film.mp4");
+  told.forget_kept();
+  EXPECT_EQ(told.note(kStart, ""), "");
+}
+
 }  // namespace
 }  // namespace burr::app

@@ -23,7 +23,7 @@ const std::vector<Box>& boxes() {
        70,
        {Word::cut, Word::add, Word::touch, Word::back, Word::smooth, Word::burr, Word::speed,
         Word::stroke, Word::bar_session, Word::help_tools, Word::export_word, Word::help_program,
-        Word::help_view, Word::leave}},
+        Word::help_view, Word::leave, Word::replay_bar_beside, Word::time}},
       {Letter::strong,
        164,
        {Word::key_left, Word::key_right, Word::key_middle, Word::key_wheel, Word::key_ctrl_wheel,
@@ -96,7 +96,7 @@ const std::vector<Box>& boxes() {
        {Word::export_bone, Word::export_removed, Word::export_picture, Word::export_film,
         Word::film_pictures, Word::export_replace, Word::export_write, Word::export_stop,
         Word::cancel}},
-      {Letter::body, 664, {Word::film_told}},
+      {Letter::body, 664, {Word::film_told, Word::film_as_seen, Word::film_aside}},
       // comparison.cpp: beside two columns of 86
       {Letter::small,
        232,

@@ -86,14 +86,6 @@ std::vector<TextPair> head_of(const Scored& scored) {
   return rows;
 }
 
-ReportMark gate_mark(const scoring::Outcome& outcome) {
-  if (outcome.verdict == Verdict::met) return {word(Word::report_gate_held), Tone::good};
-  if (outcome.verdict == Verdict::not_assessable)
-    return {word(Word::report_verdict_open), Tone::open};
-  if (!outcome.earned) return {word(Word::report_gate_unearned), Tone::open};
-  return {word(Word::report_gate_broken), Tone::bad};
-}
-
 std::vector<ReportGate> gates_of(const Scored& scored, const Scored* beside) {
   std::vector<ReportGate> gates;
   const scoring::Rubric& rubric = scored.judged.rubric;
@@ -212,7 +204,7 @@ ReportItem item_of(const Scored& scored, std::size_t n, const ReportSettings& se
   out.text = item.say.in(spoken().code);
   out.gate = item.gate;
   show_evidence(scored, item, outcome, out);
-  out.machine = mark_of(outcome);
+  out.machine = mark_of(item, outcome);
   if (const auto self = settings.self.find(item.id); self != settings.self.end())
     out.self = mark_of(self->second);
   out.figures = figures_of(outcome);
@@ -220,7 +212,7 @@ ReportItem item_of(const Scored& scored, std::size_t n, const ReportSettings& se
   out.scale = scale_of(outcome);
   out.strip = strip_of(scored, n);
   if (settings.beside != nullptr) {
-    out.beside = mark_of(settings.beside->score.outcomes[n]);
+    out.beside = mark_of(item, settings.beside->score.outcomes[n]);
     out.beside_figures = figures_of(settings.beside->score.outcomes[n]);
   }
   if (outcome.borderline) out.remarks.emplace_back(word(Word::report_borderline));

@@ -130,6 +130,19 @@ ReportMark mark_of(const scoring::Outcome& outcome) {
   return {verdict_word(outcome.verdict), tone};
 }
 
+ReportMark gate_mark(const scoring::Outcome& outcome) {
+  if (outcome.verdict == Verdict::met) return {word(Word::report_gate_held), Tone::good};
+  if (outcome.verdict == Verdict::not_assessable)
+    return {word(Word::report_verdict_open), Tone::open};
+  if (!outcome.earned) return {word(Word::report_gate_unearned), Tone::open};
+  return {word(Word::report_gate_broken), Tone::bad};
+}
+
+ReportMark mark_of(const scoring::Item& item, const scoring::Outcome& outcome) {
+  const bool unearned = item.gate && outcome.verdict == Verdict::unmet && !outcome.earned;
+  return unearned ? gate_mark(outcome) : mark_of(outcome);
+}
+
 ReportMark mark_of(SelfMark mark) {
   switch (mark) {
     case SelfMark::met:

@@ -21,6 +21,11 @@ namespace burr::app {
 [[nodiscard]] std::string measure_word(std::string_view measure);
 [[nodiscard]] std::string mode_word(record::Mode mode);
 [[nodiscard]] ReportMark mark_of(const scoring::Outcome& outcome);
+// Among the gates: held, not held, not earned.
+[[nodiscard]] ReportMark gate_mark(const scoring::Outcome& outcome);
+// In the list of items, where a gate that was not earned reads as among the gates: nothing was done
+// wrong.
+[[nodiscard]] ReportMark mark_of(const scoring::Item& item, const scoring::Outcome& outcome);
 [[nodiscard]] ReportMark mark_of(SelfMark mark);
 // "share removed 12 % (error 3 %), at least 80 %"; empty: there is no number.
 [[nodiscard]] std::string figures_of(const scoring::Outcome& outcome);

@@ -287,7 +287,7 @@ Result<ChosenParts> choose_parts(const Parts& parts, const scenario::Recipe& rec
           : fmt::format("{} of {} separate parts were removed ({}): {} mm3 in all, the largest "
                         "of {} mm3 at {} mm.",
                         found.removed, count, option, mm3_text(found.removed_mm3),
-                        found.largest_removed_mm3, point_text(where)));
+                        mm3_text(found.largest_removed_mm3), point_text(where)));
   return out;
 }
 

@@ -128,8 +128,17 @@ const Step* Lesson::step(std::string_view id) const { return named(steps, id, &S
 
 Result<Lesson> place(Lesson lesson, std::span<const Landmark> of_the_bone,
                      const std::string& file) {
-  for (const Landmark& one : of_the_bone)
-    if (lesson.landmark(one.name) == nullptr) lesson.landmarks.push_back(one);
+  for (const Landmark& one : of_the_bone) {
+    const auto own = std::find_if(lesson.landmarks.begin(), lesson.landmarks.end(),
+                                  [&](const Landmark& each) { return each.name == one.name; });
+    if (own == lesson.landmarks.end()) {
+      lesson.landmarks.push_back(one);
+    } else if (own->points.empty()) {
+      own->points = one.points;
+      own->normal = one.normal;
+    }
+  }
+  std::erase_if(lesson.landmarks, [](const Landmark& one) { return one.points.empty(); });
   if (Status placed = Placer(lesson, file).all(); !placed) return placed.error();
   return lesson;
 }

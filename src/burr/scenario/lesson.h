@@ -36,9 +36,10 @@ struct Texts {
 // A named place: one point, a curve (two points or more), or a plane (a point and a normal).
 struct Landmark {
   std::string name;
-  std::vector<math::Vec3> points;    // [m]
-  std::optional<math::Vec3> normal;  // unit; of a plane
-  std::uint32_t line = 0;            // in the file; 0: the bone's own
+  Texts title = {};                       // as people read it; empty: `name`
+  std::vector<math::Vec3> points;         // [m]; none: only a title for a landmark of the bone
+  std::optional<math::Vec3> normal = {};  // unit; of a plane
+  std::uint32_t line = 0;                 // in the file; 0: the bone's own
 };
 
 // A point as the file gives it: three numbers, or the name of a landmark.
@@ -75,6 +76,7 @@ struct Shape {
 // scan.)
 struct CaseRegion {
   std::string name;
+  Texts title = {};  // as people read it; empty: `name`
   std::vector<Shape> add, take;
   std::uint32_t line = 0;
 };
@@ -173,7 +175,8 @@ struct Lesson {
 };
 
 // The lesson with the landmarks of the bone added, and a point wherever a landmark is named. The
-// case's own landmarks come first. Error: a landmark that neither has.
+// case's own landmarks come first; one with a title alone takes the points of the bone's, and goes if
+// the bone has none of its name. Error: a landmark that is named and that neither has.
 [[nodiscard]] Result<Lesson> place(Lesson lesson, std::span<const Landmark> of_the_bone,
                                    const std::string& file);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "burr/scenario/read_lesson.h"
+#include "burr/scenario/read_texts.h"
 
 namespace burr::scenario {
 namespace {
@@ -10,16 +11,20 @@ constexpr double kMm = 1e-3;
 constexpr double kLargest = 500;  // of a radius or an edge [mm]
 
 void read_landmark(Reader& reader, Landmark& out) {
-  reader.only({"name", "at_mm", "points_mm", "normal"});
+  reader.only({"name", "title", "at_mm", "points_mm", "normal"});
   out.line = reader.line();
   reader.text("name", out.name, true);
+  read_texts(reader, "title", out.title);
   std::optional<math::Vec3> at;
   reader.vector("at_mm", at);
   reader.vectors("points_mm", out.points);
   if (at) out.points.insert(out.points.begin(), *at);
   for (math::Vec3& point : out.points) point *= kMm;
-  if (at.has_value() == reader.has("points_mm"))
-    reader.fail("at_mm", "give at_mm = [x, y, z] for a point, or points_mm for a curve");
+  const bool names_only = !at && !reader.has("points_mm") && !out.title.empty();
+  if (at.has_value() == reader.has("points_mm") && !names_only)
+    reader.fail("at_mm",
+                "give at_mm = [x, y, z] for a point, points_mm for a curve, or a title for a "
+                "landmark of the bone");
   if (reader.has("points_mm") && out.points.size() < 2)
     reader.fail("points_mm", "must have at least two points; use at_mm for one");
   reader.vector("normal", out.normal);
@@ -126,8 +131,9 @@ void read_regions(Reader& reader, Lesson& out) {
   reader.each("region", [&](Reader& inner) {
     CaseRegion& region = out.regions.emplace_back();
     region.line = inner.line();
-    inner.only({"name", "add", "take"});
+    inner.only({"name", "title", "add", "take"});
     inner.text("name", region.name, true);
+    read_texts(inner, "title", region.title);
     inner.each("add", [&](Reader& shape) { read_shape(shape, region.add.emplace_back()); });
     inner.each("take", [&](Reader& shape) { read_shape(shape, region.take.emplace_back()); });
     if (region.add.empty())

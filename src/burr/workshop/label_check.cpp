@@ -330,7 +330,7 @@ Status as_expected(const std::vector<LabelFinding>& findings, const std::string&
 std::vector<scenario::Landmark> landmarks_of(const scenario::Case& work) {
   std::vector<scenario::Landmark> all;
   for (const phantom::Landmark& one : phantom::landmarks(work.phantom))
-    all.push_back({one.name, one.points, one.normal, 0});
+    all.push_back({one.name, {}, one.points, one.normal, 0});
   return all;
 }
 

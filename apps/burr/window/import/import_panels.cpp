@@ -8,6 +8,7 @@
 
 #include "burr/base/printable.h"
 #include "window/import/import_page.h"
+#include "window/import/notice_words.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -464,7 +465,7 @@ void ImportPage::facts(const Part& part) {
   const std::vector<std::string>& all = planned_ ? planned_->import.notices : scan.notices;
   for (const std::string& notice : all)
     if (scan.series.empty() || notice.find("choose with --series") == std::string::npos)
-      notices += (notices.empty() ? "" : "\n") + notice;
+      notices += (notices.empty() ? "" : "\n") + notice_words(notice);
   if (notices.empty()) return;
   ImGui::SetCursorScreenPos({part.x, y + 4 * u});
   ImGui::BeginChild("##notices", {part.w, part.y + part.h - y - 4 * u}, false);

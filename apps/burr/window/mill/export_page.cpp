@@ -10,6 +10,7 @@
 #include "burr/render/picture.h"
 #include "window/replay/timeline_panel.h"
 #include "window/shell/helper_process.h"
+#include "window/shell/loading.h"
 #include "window/shell/typed_path.h"
 #include "window/shell/words.h"
 
@@ -49,8 +50,10 @@ void ExportPage::show(bool shown) {
 std::string ExportPage::progress() const {
   if (!work_) return {};
   const SharedProgress::Now now = work_->progress().now();
-  return say(Word::export_writing, fs::path(request_.path).filename().string(), 100 * now.fraction,
-             now.stage);
+  std::string text =
+      say(Word::export_writing, fs::path(writing_.path).filename().string(), 100 * now.fraction);
+  if (!now.stage.empty()) text += ", " + stage_words(now.stage);
+  return text;
 }
 
 std::optional<FilmSource> ExportPage::film() const {
@@ -74,6 +77,7 @@ void ExportPage::ask(bool may_replace) {
     replaces_ = true;
     return;
   }
+  writing_ = request_;
   if (request_.what == ExportWhat::film) {
     const std::optional<FilmSource> source = film();
     if (!source) {
@@ -125,7 +129,7 @@ void ExportPage::ask(bool may_replace) {
   show(false);
 }
 
-std::string ExportPage::step() {
+ExportPage::Told ExportPage::step() {
   if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) request_.path = *chosen;
   if (!work_ || !work_->finished()) return {};
   const Result<ExportDone> done = work_->take();
@@ -133,18 +137,19 @@ std::string ExportPage::step() {
   if (!done) {
     // shows the page again with the reason, so that the user can correct it
     if (done.error().trouble == Trouble::interrupted)
-      return word(request_.what != ExportWhat::film || is_film_file(request_.path)
-                      ? Word::export_stopped
-                      : Word::film_stopped);
+      return {word(writing_.what != ExportWhat::film || is_film_file(writing_.path)
+                       ? Word::export_stopped
+                       : Word::film_stopped)};
+    request_ = writing_;
     show(true);
     trouble_ = done.error().text;
     return {};
   }
-  if (done->pictures > 0) return say(Word::film_done, done->path, done->pictures);
+  if (done->pictures > 0) return {say(Word::film_done, done->path, done->pictures), true};
   if (done->triangles > 0)
-    return say(Word::export_mesh, done->path, 1e9 * done->volume, done->triangles);
-  if (done->volume > 0) return say(Word::export_volume, done->path, 1e9 * done->volume);
-  return say(Word::export_done, done->path);
+    return {say(Word::export_mesh, done->path, 1e9 * done->volume, done->triangles), true};
+  if (done->volume > 0) return {say(Word::export_volume, done->path, 1e9 * done->volume), true};
+  return {say(Word::export_done, done->path), true};
 }
 
 namespace {
@@ -192,7 +197,7 @@ void ExportPage::draw_endings(float x, float y) {
   }
 }
 
-// What the film will be: which part, how many pictures, how large.
+// What the film will be: which part, how many pictures, how large; from where it looks.
 void ExportPage::draw_film_plan(float x, float y) const {
   const auto source = film();
   if (!source) return;
@@ -201,12 +206,33 @@ void ExportPage::draw_film_plan(float x, float y) const {
       x, y, Letter::body, ink::kDim,
       say(Word::film_told, clock_of(plan.from), clock_of(plan.until), plan.seconds(), plan.frames(),
           plan.size.width, plan.size.height, in_megabytes(plan.bytes())));
+  desk_.ui().write(x, y + 21 * desk_.ui().unit(), Letter::body, ink::kDim,
+                   word(source->as_seen ? Word::film_as_seen : Word::film_aside));
+}
+
+// Stop, close, write. What is written goes on when the page is closed.
+void ExportPage::draw_buttons(float right, float y, bool entered) {
+  const float u = desk_.ui().unit();
+  const bool busy = work_ != nullptr;
+  ImGui::SetCursorScreenPos({right - 320 * u, y});
+  if (ImGui::Button(word(busy ? Word::review_close : Word::cancel), {150 * u, 0})) show(false);
+  if (busy) {
+    ImGui::SetCursorScreenPos({right - 480 * u, y});
+    if (ImGui::Button(word(Word::export_stop), {150 * u, 0})) work_->progress().cancel();
+  }
+  ImGui::SetCursorScreenPos({right - 160 * u, y});
+  ImGui::BeginDisabled(busy);
+  const bool go =
+      ImGui::Button(word(replaces_ ? Word::export_replace : Word::export_write), {160 * u, 0});
+  ImGui::EndDisabled();
+  if ((go || entered) && !busy) ask(replaces_ && go);
 }
 
 void ExportPage::draw() {
   Ui& ui = desk_.ui();
   if (dialog_.open()) return dialog_.draw(ui);
-  const float u = ui.unit(), w = 720 * u, h = 330 * u;
+  const bool is_film = request_.what == ExportWhat::film;
+  const float u = ui.unit(), w = 720 * u, h = (is_film ? 352 : 330) * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 40 * u);
   ui.page("##export", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Letter::large, ink::kText, word(Word::export_title));
@@ -238,7 +264,6 @@ void ExportPage::draw() {
   ImGui::SetCursorScreenPos({x + w - 28 * u - 120 * u, y + 160 * u});
   if (ImGui::Button(word(Word::start_file), {120 * u, 0})) dialog_.ask_where(request_.path);
 
-  const bool is_film = request_.what == ExportWhat::film;
   if (is_film) draw_film_plan(x + 28 * u, y + 202 * u);
 
   // the reason against the request, or how far the export is
@@ -248,7 +273,7 @@ void ExportPage::draw() {
                          : trouble_;
   if (!told.empty()) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float top = y + (is_film ? 228 : 204) * u;
+    const float top = y + (is_film ? 250 : 204) * u;
     float from = x + 28 * u;
     if (replaces_ || !trouble_.empty()) {
       const float cx = from + 8 * u, cy = top + 9 * u, r = 8 * u;
@@ -263,18 +288,7 @@ void ExportPage::draw() {
     draw.PopClipRect();
   }
 
-  ImGui::SetCursorScreenPos({x + w - 28 * u - 320 * u, y + h - 54 * u});
-  const bool busy = work_ != nullptr;
-  if (ImGui::Button(word(busy ? Word::export_stop : Word::cancel), {150 * u, 0})) {
-    if (busy)
-      work_->progress().cancel();
-    else
-      show(false);
-  }
-  ImGui::SetCursorScreenPos({x + w - 28 * u - 160 * u, y + h - 54 * u});
-  const bool go =
-      ImGui::Button(word(replaces_ ? Word::export_replace : Word::export_write), {160 * u, 0});
-  if ((go || entered) && !busy) ask(replaces_ && go);
+  draw_buttons(x + w - 28 * u, y + h - 54 * u, entered);
   ImGui::End();
 }
 

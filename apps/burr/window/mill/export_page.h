@@ -41,8 +41,13 @@ class ExportPage {
   void stop_choosing() { dialog_.cancel(); }
   void show(bool shown);
   void draw();
-  // Call it in each frame: returns a message for the user; "" for none.
-  [[nodiscard]] std::string step();
+  // For the user; text: "" for none. stays: until it is clicked away, because somebody waited for it.
+  struct Told {
+    std::string text = {};
+    bool stays = false;
+  };
+  // Call it in each frame.
+  [[nodiscard]] Told step();
   // How far the export is, as text; "": nothing is being written.
   [[nodiscard]] std::string progress() const;
   // The reason that the page shows against the request; "": none, or the page is not shown.
@@ -53,6 +58,7 @@ class ExportPage {
   [[nodiscard]] std::optional<FilmSource> film() const;
   void draw_endings(float x, float y);
   void draw_film_plan(float x, float y) const;
+  void draw_buttons(float right, float y, bool entered);
 
   Desk& desk_;
   sim::Session* session_;
@@ -60,8 +66,8 @@ class ExportPage {
   FilmOf film_of_;
   rt::ChangedBits* changed_ = nullptr;
   bool shown_ = false, replaces_ = false;  // replaces_: the page asks whether it may
-  ExportRequest request_;
-  std::optional<PictureSize> film_size_;  // as chosen
+  ExportRequest request_, writing_;        // writing_: of work_, whatever the page shows by now
+  std::optional<PictureSize> film_size_;   // as chosen
   std::string trouble_;
   FileDialog dialog_;
   std::shared_ptr<const volume::Bone> before_;

@@ -24,7 +24,8 @@ Word picture_word(int step) {
 
 using Letter = Ui::Letter;
 
-constexpr float kStrip = 58, kMargin = 10, kPad = 14, kLeft = 104;  // [points]
+constexpr float kStrip = 58, kMargin = 10, kPad = 14;  // [points]
+constexpr float kLeft = 104, kViewsBar = 160;  // left edge and width of views_bar.cpp [points]
 
 // Draws the strip cell by cell, from the left.
 class Strip {
@@ -146,13 +147,29 @@ void tick_cell(const Ui& ui, Strip& strip, const HudState& s) {
                       word(picture_word(s.picture_step)));
 }
 
-// a scale bar of a round length, about a sixth of the picture's width, above the strip at the right
+// A round length, about a sixth of the picture's width [m].
+double scale_length(const Ui& ui, const HudState& s) {
+  const double wanted = s.pixel * static_cast<double>(ui.width()) / 6;
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  return 5 * power <= wanted ? 5 * power : 2 * power <= wanted ? 2 * power : power;
+}
+
+// Between the bar of views and the scale bar, so that a line of text covers neither.
+LineRoom line_room(const Ui& ui, const HudState& s) {
+  const float u = ui.unit();
+  constexpr float kBeside = 16, kLeast = 320;  // [points]
+  LineRoom room{(kLeft + kViewsBar + kBeside) * u, ui.width() - kMargin * u - s.column};
+  if (s.pixel > 0)
+    room.right -= static_cast<float>(scale_length(ui, s) / s.pixel) + (6 + kBeside) * u;
+  if (room.right - room.left < kLeast * u) room.right = room.left + kLeast * u;
+  return room;
+}
+
+// a scale bar above the strip at the right
 void scale_bar(const Ui& ui, const HudState& s) {
   const float u = ui.unit();
   if (!(s.pixel > 0)) return;
-  const double wanted = s.pixel * static_cast<double>(ui.width()) / 6;
-  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-  const double length = 5 * power <= wanted ? 5 * power : 2 * power <= wanted ? 2 * power : power;
+  const double length = scale_length(ui, s);
   const auto w = static_cast<float>(length / s.pixel);
   const float x1 = ui.width() - (kMargin + 6) * u - s.column, x0 = x1 - w;
   const float y = ui.height() - hud_height(ui) - 10 * u;
@@ -230,17 +247,26 @@ void tool_cell(const Ui& ui, Strip& strip, const HudState& s) {
 
 }  // namespace
 
-void line_above(const Ui& ui, float& y, const std::string& text, bool warns, float column) {
-  if (text.empty()) return;
-  const float u = ui.unit(), h = 32 * u;
-  const float mark = warns ? 26 * u : 0;
-  const float w = std::min(ui.width_of(Letter::body, text) + mark + 28 * u, ui.width() - 20 * u);
-  // in the middle between the buttons and the slices, so that it does not lie over the scale bar
-  const float x = std::clamp((kLeft * u + ui.width() - column - w) / 2, 10 * u,
+bool line_above(Ui& ui, float& y, const std::string& text, bool warns, LineRoom room, bool stays) {
+  if (text.empty()) return false;
+  const float u = ui.unit(), mark = warns ? 26 * u : 0, close = stays ? 26 * u : 0;
+  const float wide = std::max(200 * u, room.right - room.left), around = mark + close + 28 * u;
+  const ImFont* font = ui.font(Letter::body);
+  const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9F, wide - around, text.data(),
+                                          text.data() + text.size());
+  const float w = size.x + around, h = size.y + 17 * u;
+  const float x = std::clamp((room.left + room.right - w) / 2, 10 * u,
                              std::max(10 * u, ui.width() - w - 10 * u));
   y -= h + 6 * u;
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.AddRectFilled({x, y}, {x + w, y + h}, ink::kPanel, 8 * u);
+  bool clicked = false;
+  if (stays) {
+    ui.panel("##stays", x, y, w, h);
+    ImGui::SetCursorScreenPos({x, y});
+    clicked = ImGui::InvisibleButton("##away", {w, h});
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(Word::line_close));
+  }
+  ImDrawList& draw = stays ? *ImGui::GetWindowDrawList() : *ImGui::GetBackgroundDrawList();
+  if (!stays) draw.AddRectFilled({x, y}, {x + w, y + h}, ink::kPanel, 8 * u);
   if (warns) {
     const float cx = x + 22 * u, cy = y + h / 2, r = 8 * u;
     draw.AddTriangleFilled({cx - r, cy + 0.8F * r}, {cx + r, cy + 0.8F * r}, {cx, cy - 0.9F * r},
@@ -249,12 +275,17 @@ void line_above(const Ui& ui, float& y, const std::string& text, bool warns, flo
     draw.AddRectFilled({cx - 0.9F * u, cy + 3.2F * u}, {cx + 0.9F * u, cy + 5 * u},
                        ink::rgb(0, 0, 0));
   }
-  const ImFont* font = ui.font(Letter::body);
-  draw.PushClipRect({x, y}, {x + w, y + h});
   draw.AddText(font, font->FontSize,
-               {std::round(x + 14 * u + mark), std::round(y + (h - font->FontSize) / 2)},
-               ink::kText, text.data(), text.data() + text.size());
-  draw.PopClipRect();
+               {std::round(x + 14 * u + mark), std::round(y + (h - size.y) / 2)}, ink::kText,
+               text.data(), text.data() + text.size(), wide - around);
+  if (stays) {
+    const ImVec2 c = {x + w - 18 * u, y + h / 2};
+    const float r = 4 * u;
+    draw.AddLine({c.x - r, c.y - r}, {c.x + r, c.y + r}, ink::kDim, 1.6F * u);
+    draw.AddLine({c.x - r, c.y + r}, {c.x + r, c.y - r}, ink::kDim, 1.6F * u);
+    ImGui::End();
+  }
+  return clicked;
 }
 
 void draw_mirror_sign(const Ui& ui, const std::string& words, float column) {
@@ -301,7 +332,7 @@ std::string minutes(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-void draw_hud(Ui& ui, const HudState& s) {
+bool draw_hud(Ui& ui, const HudState& s) {
   const float u = ui.unit();
   const bool near = s.spares;
   const float w =
@@ -341,8 +372,10 @@ void draw_hud(Ui& ui, const HudState& s) {
   scale_bar(ui, s);
   draw_mirror_sign(ui, s.mirror, s.column);
   float above = y;
-  line_above(ui, above, s.note, false, s.column);
-  line_above(ui, above, s.warning, true, s.column);
+  const LineRoom room = line_room(ui, s);
+  const bool away = line_above(ui, above, s.note, false, room, s.note_stays);
+  static_cast<void>(line_above(ui, above, s.warning, true, room));
+  return away;
 }
 
 }  // namespace burr::app

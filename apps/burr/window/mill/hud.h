@@ -1,7 +1,7 @@
 // apps/burr/window/mill/hud.h - the values that the user needs while milling: a strip at the lower
 // edge of the picture and a line of text above it.
 //
-// Takes plain data and returns nothing. Units: SI; the user reads mm, N and rpm. Thread: main,
+// Takes plain data. Units: SI; the user reads mm, N and rpm. Thread: main,
 // between Ui::begin() and draw().
 #pragma once
 
@@ -48,21 +48,29 @@ struct HudState {
   TickHealth ticks = TickHealth::good;
   double p99_us = 0, max_us = 0;
   std::uint64_t missed = 0;
-  int picture_step = 0;  // render::FrameGovernor's
-  float column = 0;      // width at the right that slices cover [pixel]
-  double pixel = 0;      // size of one at the camera's target  [m]
-  std::string mirror;    // the plane of the mirror; "" for none
-  std::string note;      // the last message
-  std::string warning;   // "" for none
+  int picture_step = 0;     // render::FrameGovernor's
+  float column = 0;         // width at the right that slices cover [pixel]
+  double pixel = 0;         // size of one at the camera's target  [m]
+  std::string mirror;       // the plane of the mirror; "" for none
+  std::string note;         // the last message
+  bool note_stays = false;  // until the user clicks it away
+  std::string warning;      // "" for none
 };
 
-void draw_hud(Ui& ui, const HudState& state);
+// True: the user clicked the note away.
+[[nodiscard]] bool draw_hud(Ui& ui, const HudState& state);
 // Height of the strip and the line, from the bottom [pixel]; nothing else is drawn there.
 [[nodiscard]] float hud_height(const Ui& ui);
 
-// Writes a centred line above the strip; `y` is moved up by its height. warns: a warning sign
-// before it. column: at the right, that slices cover [pixel].
-void line_above(const Ui& ui, float& y, const std::string& text, bool warns, float column = 0);
+// What lies between these two may be covered by a line of text [pixel].
+struct LineRoom {
+  float left = 0, right = 0;
+};
+
+// Writes a text above the strip, in the middle of its room, in as many lines as it needs; `y` is moved
+// up by its height. warns: a warning sign before it. stays: it takes a click, and true is returned.
+bool line_above(Ui& ui, float& y, const std::string& text, bool warns, LineRoom room,
+                bool stays = false);
 
 // Writes that a mirror is on, at the top, centred in the width that `column` at the right leaves.
 // Nothing for an empty text.

@@ -204,6 +204,21 @@ void Mill::act(Action action) {
       return step_opacity(false);
     case Action::keep:
       return keep();
+    case Action::beside:  // of the page that plays a recording
+    case Action::compare:
+    case Action::earlier:
+    case Action::later:
+    case Action::step_back:
+    case Action::step_on:
+    case Action::stroke_back:
+    case Action::stroke_on:
+    case Action::first_view:
+    case Action::labels:
+    case Action::hide:
+    case Action::play:
+    case Action::film_from:
+    case Action::film_until:
+      return;
   }
 }
 

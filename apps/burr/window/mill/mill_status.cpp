@@ -145,7 +145,9 @@ void Mill::update_status() {
   // after the reason of the release: what the user should do
   if (lasting.empty() && session_.servo().released() && (row_.hand.buttons & device::kLifted) == 0)
     warning_ += (warning_.empty() ? "" : ". ") + std::string(word(Word::begins_free));
-  note_ = status_.note(now, pages_->exporting().progress());
+  const std::string progress = pages_->exporting().progress();
+  if (!progress.empty()) status_.forget_kept();  // of the export before
+  note_ = status_.note(now, progress);
   // the value of a measurement is not kept: the strip shows the one that stands in the picture
   const std::string measured = note_.empty() ? measuring_.words() : std::string();
   if (note_.empty() && measured.empty() && hands_.real == nullptr && row_.ledger.removed <= 0)
@@ -211,6 +213,7 @@ HudState Mill::hud() const {
   if (const edit::Mirror mirror = mirror_.now(); mirror.on())
     s.mirror = mirror_words(session_.bone().grid(), mirror);
   s.note = note_.empty() ? measuring_.words() : note_;
+  s.note_stays = status_.kept() && !note_.empty();
   if (s.note.empty() && cue_ != Technique::Cue::none) s.note = cue_text();
   s.warning = warning_;
   return s;
@@ -240,7 +243,10 @@ void Mill::panels() {
   measuring_.draw(ui, scene_.camera);
   if (!page_open()) pointer_.draw(pressing());
   if (panels_) {
-    draw_hud(ui, hud());
+    if (draw_hud(ui, hud())) {
+      status_.forget_kept();
+      said_ = {};  // the line is gone in the next picture
+    }
     slices_->write_names(scene_, ui);
     // the text disappears when the first bone is removed; a key shows it again
     if (row_.ledger.removed > 0 && !std::exchange(task_read_, true) && leaf_ == Leaf::task)

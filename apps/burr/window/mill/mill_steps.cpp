@@ -47,6 +47,20 @@ bool Mill::allows(Action action) const {
     case Action::sound:
     case Action::menu:
     case Action::rack:
+    case Action::beside:  // these: of the page that plays a recording
+    case Action::compare:
+    case Action::earlier:
+    case Action::later:
+    case Action::step_back:
+    case Action::step_on:
+    case Action::stroke_back:
+    case Action::stroke_on:
+    case Action::first_view:
+    case Action::labels:
+    case Action::hide:
+    case Action::play:
+    case Action::film_from:
+    case Action::film_until:
       return true;
     case Action::see_through:
       return options_.allowed.see_through;

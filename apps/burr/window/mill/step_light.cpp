@@ -99,7 +99,7 @@ void StepLight::draw(const Ui& ui, const render::Camera& camera) const {
     draw.AddCircle(*middle, r, kRing, 48, 2 * u);
     if (ring.name.empty()) continue;
     const ImFont* font = ui.font(Ui::Letter::small);
-    const std::string name = anatomy(ring.name);
+    const std::string name = place_name(ring.name);
     const ImVec2 at = {std::round(middle->x + r + 5 * u), std::round(middle->y - 8 * u)};
     draw.AddText(font, font->FontSize, {at.x + u, at.y + u}, kShade, name.c_str());
     draw.AddText(font, font->FontSize, at, kRing, name.c_str());

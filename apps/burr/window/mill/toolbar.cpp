@@ -288,6 +288,77 @@ void reading_icon(const Pen& pen, Action action) {
   }
 }
 
+using Button = BarButton;
+using Line = BarLine;
+
+// icons of the page that plays a recording
+void replay_icon(const Pen& pen, Action action) {
+  const float r = pen.r;
+  const ImVec2 c = pen.c;
+  // a filled arrow head; way: -1 to the left, 1 to the right
+  const auto head = [&](float x, float way) {
+    pen.draw.AddTriangleFilled({x + 0.55F * way * r, c.y}, {x - 0.35F * way * r, c.y - 0.7F * r},
+                               {x - 0.35F * way * r, c.y + 0.7F * r}, pen.shade);
+  };
+  const float way =
+      action == Action::step_back || action == Action::stroke_back || action == Action::earlier
+          ? -1.0F
+          : 1.0F;
+  switch (action) {
+    case Action::step_back:
+    case Action::step_on:
+      head(c.x, way);
+      break;
+    case Action::stroke_back:  // an arrow head against a line
+    case Action::stroke_on:
+      head(c.x - 0.2F * way * r, way);
+      pen.draw.AddLine({c.x + 0.7F * way * r, c.y - 0.75F * r},
+                       {c.x + 0.7F * way * r, c.y + 0.75F * r}, pen.shade, pen.thick);
+      break;
+    case Action::beside:  // two pictures beside each other
+      for (const float side : {-0.55F, 0.55F})
+        pen.draw.AddRect({c.x + (side - 0.42F) * r, c.y - 0.75F * r},
+                         {c.x + (side + 0.42F) * r, c.y + 0.75F * r}, pen.shade, 0, 0,
+                         0.7F * pen.thick);
+      break;
+    case Action::compare:  // a table
+      pen.draw.AddRect({c.x - r, c.y - 0.8F * r}, {c.x + r, c.y + 0.8F * r}, pen.shade, 0, 0,
+                       0.7F * pen.thick);
+      pen.draw.AddLine({c.x - r, c.y - 0.25F * r}, {c.x + r, c.y - 0.25F * r}, pen.shade,
+                       0.6F * pen.thick);
+      pen.draw.AddLine({c.x + 0.1F * r, c.y - 0.8F * r}, {c.x + 0.1F * r, c.y + 0.8F * r},
+                       pen.shade, 0.6F * pen.thick);
+      break;
+    case Action::earlier:  // a bar on a line of time, moved along it
+    case Action::later:
+      pen.draw.AddLine({c.x - r, c.y + 0.8F * r}, {c.x + r, c.y + 0.8F * r}, pen.shade,
+                       0.6F * pen.thick);
+      pen.draw.AddLine({c.x - 0.8F * way * r, c.y - 0.1F * r},
+                       {c.x + 0.3F * way * r, c.y - 0.1F * r}, pen.shade, pen.thick);
+      pen.draw.AddTriangleFilled({c.x + 0.95F * way * r, c.y - 0.1F * r},
+                                 {c.x + 0.2F * way * r, c.y - 0.65F * r},
+                                 {c.x + 0.2F * way * r, c.y + 0.45F * r}, pen.shade);
+      break;
+    case Action::first_view:  // a house
+      pen.draw.AddTriangleFilled({c.x - r, c.y}, {c.x + r, c.y}, {c.x, c.y - 0.9F * r}, pen.shade);
+      pen.draw.AddRectFilled({c.x - 0.6F * r, c.y}, {c.x + 0.6F * r, c.y + 0.8F * r}, pen.shade);
+      break;
+    case Action::labels:  // half of a ball in colour
+      pen.draw.AddCircle(c, 0.8F * r, pen.shade, 20, 0.8F * pen.thick);
+      pen.draw.PathArcTo(c, 0.8F * r, -0.5F * kPi, 0.5F * kPi, 16);
+      pen.draw.PathFillConvex(pen.shade);
+      break;
+    case Action::hide:  // a panel, crossed out
+      pen.draw.AddRect({c.x - 0.8F * r, c.y - 0.6F * r}, {c.x + 0.8F * r, c.y + 0.6F * r},
+                       pen.shade, 0.2F * r, 0, 0.7F * pen.thick);
+      pen.draw.AddLine({c.x - 0.9F * r, c.y + 0.9F * r}, {c.x + 0.9F * r, c.y - 0.9F * r},
+                       pen.shade, pen.thick);
+      break;
+    default:
+      break;
+  }
+}
+
 // Icons are drawn, so that no font with icons is needed. c: middle, r: half the size.
 void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
   const Pen pen = {draw, c, r, shade};
@@ -296,17 +367,13 @@ void icon(ImDrawList& draw, Action action, ImVec2 c, float r, ImU32 shade) {
   page_icon(pen, action);
   operation_icon(pen, action);
   reading_icon(pen, action);
+  replay_icon(pen, action);
 }
-
-struct Button {
-  Action action;
-  Word name;
-  const char* key;
-};
 
 class Bar {
  public:
-  Bar(Ui& ui, std::optional<Action>& pressed) : ui_(ui), pressed_(pressed), u_(ui.unit()) {}
+  Bar(Ui& ui, std::optional<Action>& pressed, std::vector<BarPlace>* places)
+      : ui_(ui), pressed_(pressed), places_(places), u_(ui.unit()) {}
 
   // the icon above its name
   void tall(const Button& b, bool chosen = false) {
@@ -350,6 +417,7 @@ class Bar {
   void body(const Button& b, ImVec2 p, ImVec2 size, bool chosen) {
     ImGui::PushID(static_cast<int>(b.action));
     if (ImGui::InvisibleButton("##b", size)) pressed_ = b.action;
+    if (places_ != nullptr) places_->push_back({b.action, p.x, p.y, size.x, size.y});
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 q = {p.x + size.x, p.y + size.y};
     if (ImGui::IsItemHovered()) {
@@ -369,15 +437,8 @@ class Bar {
 
   Ui& ui_;
   std::optional<Action>& pressed_;
+  std::vector<BarPlace>* places_;
   float u_;
-};
-
-// One line of the bar: a tall button, or two small ones; with a heading above them.
-struct Line {
-  std::optional<Word> heading;
-  Button left;
-  std::optional<Button> right;
-  float gap = 0;  // below it [points]
 };
 
 // The order of an operation: burr, water, view, what is read and kept; then what changes bone in
@@ -472,29 +533,36 @@ std::vector<Action> toolbar_actions() {
   return all;
 }
 
-std::optional<Action> draw_toolbar(Ui& ui, const ToolbarState& state) {
+std::optional<Action> draw_bar(Ui& ui, const std::vector<BarLine>& lines, float high, float free,
+                               const std::function<bool(Action)>& is_on,
+                               std::vector<BarPlace>* places) {
   std::optional<Action> pressed;
   const float u = ui.unit();
-  const float h = 645 * u, w = 82 * u;
-  const float free = ui.height() - 78 * u;
+  const float h = high * u, w = 82 * u;
   const float y = std::max(6 * u, (free - h) / 2);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * u, 8 * u});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4 * u, 3 * u});
   ui.panel("##tools", 10 * u, y, w, h);
-  Bar bar(ui, pressed);
-  for (const Line& line : lines()) {
-    const bool left = is_on(state, line.left.action);
+  Bar bar(ui, pressed, places);
+  for (const Line& line : lines) {
+    const bool left = is_on(line.left.action);
     if (!line.right)
       bar.tall(line.left, left);
     else if (line.heading)
-      bar.pair(*line.heading, line.left, *line.right, left, is_on(state, line.right->action));
+      bar.pair(*line.heading, line.left, *line.right, left, is_on(line.right->action));
     else
-      bar.row(line.left, *line.right, left, is_on(state, line.right->action));
+      bar.row(line.left, *line.right, left, is_on(line.right->action));
     if (line.gap > 0) bar.gap(line.gap);
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
   return pressed;
+}
+
+std::optional<Action> draw_toolbar(Ui& ui, const ToolbarState& state) {
+  constexpr float kHigh = 645, kStrip = 78;  // [points]
+  return draw_bar(ui, lines(), kHigh, ui.height() - kStrip * ui.unit(),
+                  [&state](Action action) { return is_on(state, action); });
 }
 
 }  // namespace burr::app

@@ -105,7 +105,10 @@ Status Mill::frame(workshop::LiveSurface& live) {
   look_at_measure();
   look_at_technique();
   keep_diary();
-  note(pages_->exporting().step());
+  if (ExportPage::Told told = pages_->exporting().step(); told.stays)
+    status_.keep(std::move(told.text));
+  else
+    note(std::move(told.text));
   update_status();
   look_at_names();
   view_turn_.step(scene_.camera, Clock::now());

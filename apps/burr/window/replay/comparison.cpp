@@ -125,7 +125,7 @@ void Comparison::colour(bool on) {
 }
 
 bool Comparison::draw(Ui& ui, float x, float y, const Facts* left, bool colours) const {
-  const float u = ui.unit(), w = 348 * u, line = 20 * u;
+  const float u = ui.unit(), w = kWide * u, line = 20 * u;
   const Facts* right = this->right();
   const bool known = left != nullptr && right != nullptr;
   std::vector<LossRow> rows = known ? compared(left->lost, right->lost) : std::vector<LossRow>();
@@ -134,7 +134,7 @@ bool Comparison::draw(Ui& ui, float x, float y, const Facts* left, bool colours)
   const float h = static_cast<float>(lines) * line + (known ? 78 : 12) * u;
   ui.panel("##compared", x, y, w, h);
   float at = y + 10 * u;
-  const float name = x + 14 * u, first = x + w - 100 * u, second = x + w - 14 * u;
+  const float name = x + 22 * u, first = x + w - 100 * u, second = x + w - 14 * u;
   const auto row = [&](const std::string& text, const std::string& a, const std::string& b,
                        ImU32 colour = ink::kText) {
     ui.write(name, at, Letter::small, colour, text);
@@ -152,8 +152,9 @@ bool Comparison::draw(Ui& ui, float x, float y, const Facts* left, bool colours)
   }
   for (const LossRow& each : rows) {
     if (each.spare)
-      ImGui::GetWindowDrawList()->AddTriangleFilled(
-          {x + 3 * u, at + 12 * u}, {x + 11 * u, at + 12 * u}, {x + 7 * u, at + 4 * u}, ink::kWarn);
+      ImGui::GetWindowDrawList()->AddTriangleFilled({x + 9 * u, at + 12 * u},
+                                                    {x + 17 * u, at + 12 * u},
+                                                    {x + 13 * u, at + 4 * u}, ink::kWarn);
     row(anatomy(each.name), fmt::format("{:.1f}", 1e9 * each.left),
         fmt::format("{:.1f}", 1e9 * each.right), each.spare ? ink::kWarn : ink::kText);
   }
@@ -181,7 +182,7 @@ bool Comparison::draw(Ui& ui, float x, float y, const Facts* left, bool colours)
     pressed = ImGui::Button(
         fmt::format("{}  [C]", word(colours ? Word::beside_no_colours : Word::beside_colours))
             .c_str(),
-        {w - 28 * u, 0});
+        {w - 36 * u, 0});
     at += 44 * u;
     float next = name;
     for (const auto& [colour, text] : {std::pair{kLeftOnly, Word::beside_left_only},

@@ -59,6 +59,7 @@ class Comparison {
   // The same bone in both, and it is known how it was before.
   [[nodiscard]] bool comparable() const { return difference_.has_value(); }
 
+  static constexpr float kWide = 356;  // of the table [points]
   // Draws the table; returns true if the button for the colours was pressed.
   [[nodiscard]] bool draw(Ui& ui, float x, float y, const Facts* left, bool colours) const;
 

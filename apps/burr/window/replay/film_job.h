@@ -20,6 +20,7 @@ struct FilmSource {
   scenario::Recipe volume;  // of the scan; empty path: the recording finds it
   FilmPlan plan;            // until: the length so far, or less
   bool effects = true;      // burr replay --effects
+  bool as_seen = true;      // the recording says where its user looked, and the film looks there
 };
 
 // The source for a film of a running session that is recorded.

@@ -48,6 +48,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   out.film.recording = file;
   out.film.volume = volume;
   out.film.plan.until = out.player->seconds();
+  out.film.as_seen = !out.player->views().empty();
   auto watched = workshop::watch(*out.player, volume, progress);
   if (!watched) return watched.error();
   out.bone = std::move(watched->bone);
@@ -107,6 +108,13 @@ bool Playback::take(Shown& shown) {
   return true;
 }
 
+bool Playback::take_early(Early& early) {
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(early_fresh_, false)) return false;
+  early = early_;
+  return true;
+}
+
 bool Playback::behind() const {
   const std::lock_guard lock(mutex_);
   return asked_ || working_;
@@ -122,11 +130,17 @@ void Playback::work() {
     Shown shown;
     shown.t = wanted_;
     lock.unlock();
+    const auto row = player_.tick_at(shown.t);
+    if (row) {
+      shown.row = *row;
+      lock.lock();
+      early_ = {shown.t, *row};
+      early_fresh_ = true;
+      lock.unlock();
+    }
     if (const Status there = player_.bone_at(shown.t, bone_); !there)
       shown.trouble = there.error().text;
-    if (auto row = player_.tick_at(shown.t))
-      shown.row = *row;
-    else if (shown.trouble.empty())
+    else if (!row)
       shown.trouble = row.error().text;
     shown.changes = traces_.seek(shown.t);
     lock.lock();

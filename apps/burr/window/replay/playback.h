@@ -77,6 +77,13 @@ class Playback {
   void want(double t_s);
   // Gets the newest result; false: there is nothing new.
   [[nodiscard]] bool take(Shown& shown);
+  // Gets the last tick before the moment that is being restored, which is known long before its bone.
+  // False: nothing new, or the tick cannot be read.
+  struct Early {
+    double t = -1;  // [s]
+    tick::TickRow row;
+  };
+  [[nodiscard]] bool take_early(Early& early);
   // The last request is not done yet.
   [[nodiscard]] bool behind() const;
 
@@ -91,6 +98,8 @@ class Playback {
   double wanted_ = 0;
   bool asked_ = false, working_ = false, fresh_ = false, end_ = false;
   Shown newest_;
+  Early early_;
+  bool early_fresh_ = false;
   std::jthread thread_;  // last: starts after the other members, ends before them
 };
 

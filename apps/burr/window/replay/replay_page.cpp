@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "window/mill/mirror_mode.h"
 #include "window/mill/see_through.h"
 #include "window/replay/comparison.h"
+#include "window/replay/replay_bar.h"
 #include "window/replay/replay_view.h"
 #include "window/replay/split_view.h"
 #include "window/replay/timeline_panel.h"
@@ -54,7 +56,8 @@ class Watch {
   void take_titles() const;
   void take_events();
   void key(const SDL_Keysym& pressed);
-  void telling_key(SDL_Keycode sym);
+  void act(Action action);
+  void leave();
   void move(const SDL_MouseMotionEvent& motion);
   void go(double t);
   void play(bool playing);
@@ -72,12 +75,15 @@ class Watch {
   void shift(double by);
   void follow();
   void panels();
+  void draw_table(const Facts* left);
   void titles() const;
   void ring() const;
   void show_labels(bool shown);
-  void note(std::string text) {
+  void show_panels(bool shown);
+  void note(std::string text, bool stays = false) {
     note_ = std::move(text);
     noted_ = Clock::now();
+    note_stays_ = stays;
   }
   [[nodiscard]] bool page_open() const {
     return help_ || dialog_.open() || (export_ && export_->shown());
@@ -111,7 +117,11 @@ class Watch {
   bool labels_ = true, leaves_ = false;  // leaves_: leave, even if a film is being made
   std::optional<ExportPage> export_;
   Closed closed_ = Closed::window;
-  std::string note_, trouble_;  // trouble_: of the second recording, until a key
+  std::string note_, trouble_;     // trouble_: of the second recording, until a key
+  std::optional<Action> pressed_;  // the button of the last picture
+  bool writing_ = false;           // a file is being written
+  bool note_stays_ = false;        // until it is clicked away
+  bool click_ = false;  // a button of the mouse went down, and the mouse has not moved since
   Clock::time_point noted_{}, stirred_ = Clock::now();  // stirred_: last input or change
   double stop_at_ = 0;                                  // playing ends there [s]
 };
@@ -166,12 +176,18 @@ Result<Closed> Watch::run() {
     // a slow computer shows fewer moments; the session does not take longer
     first_->want(now_.t);
     if (second_) second_->want(now_.t - now_.shift);
-    if (std::string told = export_->step(); !told.empty()) note(std::move(told));
-    if (Clock::now() - noted_ > std::chrono::seconds(6)) note_.clear();
+    if (ExportPage::Told told = export_->step(); !told.text.empty())
+      note(std::move(told.text), told.stays);
+    const bool writes = !export_->progress().empty();
+    if (writes && !writing_) note({});  // the line is for what is being written now
+    writing_ = writes;
+    if (!note_stays_ && Clock::now() - noted_ > std::chrono::seconds(6)) note({});
     shown = show();
     if (now_.playing || scrubbing_ || !first_->settled() || (second_ && !second_->settled()) ||
         !desk_.renderer().refined())
       stirred_ = Clock::now();
+    // not while the panels are drawn: it may be the second bone's end, which is being shown
+    if (const auto pressed = std::exchange(pressed_, std::nullopt)) act(*pressed);
     if (std::exchange(picture_, false)) {
       const Result<std::string> left = desk_.leave_picture(options_.folder);
       note(left ? say(Word::picture_left, *left) : left.error().text);
@@ -205,7 +221,10 @@ Status Watch::show() {
   first_->look(effects, now_.playing, desk_.settings.left_handed);
   if (second_) second_->look(effects, now_.playing, desk_.settings.left_handed);
   tell();
-  const auto over = panels_ || page_open() ? [this] { panels(); } : std::function<void()>();
+  now_.buttons.clear();
+  now_.table = {};
+  const bool told = !note_.empty() && Clock::now() - noted_ < std::chrono::seconds(3);
+  const auto over = panels_ || page_open() || told ? [this] { panels(); } : std::function<void()>();
   Status shown = fine();
   if (second_) {
     follow();
@@ -222,9 +241,10 @@ Status Watch::show() {
                   desk_.renderer().figures().redrawn);
   }
   now_.shown = first_->shown();
+  now_.known = first_->known();
   now_.force = first_->force();
   now_.removed = first_->removed();
-  now_.diameter = 2 * first_->tool().radius;
+  now_.diameter = 2 * first_->tool_of_values().radius;
   now_.behind = first_->behind() || (second_ && second_->behind());
   now_.beside = second_.has_value();
   now_.shown_beside = second_ ? second_->shown() : 0;
@@ -232,6 +252,10 @@ Status Watch::show() {
   now_.note = !export_->trouble().empty() ? export_->trouble()
               : !trouble_.empty()         ? trouble_
                                           : note_;
+  now_.note_stays = note_stays_ && !note_.empty();
+  now_.panels = panels_;
+  now_.help = help_;
+  now_.exporting = export_->shown();
   if (options_.seen != nullptr) *options_.seen = now_;
   return shown;
 }
@@ -317,12 +341,12 @@ void Watch::next_slices() {
 
 void Watch::ask_beside() {
   if (second_) return close_beside();
-  dialog_.ask(word(Word::dialog_second));
+  dialog_.ask(word(Word::dialog_second), FileDialog::Wanted::recordings);
   SDL_StartTextInput();
 }
 
 void Watch::shift(double by) {
-  if (!second_) return;
+  if (!second_) return note(word(Word::replay_second_first));
   // limits: the second begins no later than the first ends, and ends no earlier than the first
   // begins
   now_.shift = std::clamp(now_.shift + by, -second_->line().seconds, first_->line().seconds);
@@ -377,6 +401,7 @@ void Watch::take_events() {
         break;
       case SDL_KEYDOWN:
         trouble_.clear();
+        click_ = false;
         if (dialog_.open()) {  // it takes letters and arrows itself
           if (event.key.keysym.sym == SDLK_ESCAPE) dialog_.cancel();
         } else if (!desk_.ui().typing()) {
@@ -384,7 +409,14 @@ void Watch::take_events() {
         }
         break;
       case SDL_MOUSEMOTION:
+        if (std::abs(event.motion.xrel) + std::abs(event.motion.yrel) > 1) click_ = false;
         move(event.motion);
+        break;
+      case SDL_MOUSEBUTTONDOWN:
+        click_ = !panels_ && !page_open();
+        break;
+      case SDL_MOUSEBUTTONUP:  // the only way back to the panels without a key
+        if (std::exchange(click_, false)) show_panels(true);
         break;
       case SDL_MOUSEWHEEL:
         if (!page_open() && !desk_.ui().over_panel())
@@ -421,95 +453,124 @@ void Watch::key(const SDL_Keysym& pressed) {
       }
       [[fallthrough]];
     case SDLK_q:
-      if (!export_->progress().empty() && !std::exchange(leaves_, true)) {
-        note(word(Word::export_wait));
-        break;
-      }
-      closed_ = Closed::page;
-      open_ = false;
-      break;
+      return leave();
     case SDLK_SPACE:
-      play(!now_.playing);
-      break;
+      return act(Action::play);
     case SDLK_LEFT:
-      go(ctrl ? stroke_before(now_.t - 0.5) : now_.t - (shift_held ? kSmallStep : kStep));
-      break;
+      if (ctrl) return act(Action::stroke_back);
+      return shift_held ? go(now_.t - kSmallStep) : act(Action::step_back);
     case SDLK_RIGHT:
-      go(ctrl ? stroke_after(now_.t) : now_.t + (shift_held ? kSmallStep : kStep));
-      break;
+      if (ctrl) return act(Action::stroke_on);
+      return shift_held ? go(now_.t + kSmallStep) : act(Action::step_on);
     case SDLK_UP:
     case SDLK_DOWN:
-      turn_view(0, pressed.sym == SDLK_UP ? 12 : -12, shift_held);
-      break;
+      return turn_view(0, pressed.sym == SDLK_UP ? 12 : -12, shift_held);
     case SDLK_HOME:
-      go(0);
-      break;
+      return go(0);
     case SDLK_END:
-      go(seconds());
-      break;
+      return go(seconds());
     case SDLK_COMMA:
     case SDLK_MINUS:
     case SDLK_KP_MINUS:
-      change_pace(-1);
-      break;
+      return act(Action::slower);
     case SDLK_PERIOD:
     case SDLK_PLUS:
     case SDLK_EQUALS:
     case SDLK_KP_PLUS:
-      change_pace(1);
-      break;
-    case SDLK_b:
-      ask_beside();
-      break;
+      return act(Action::faster);
     case '{':  // Shift + [ on many keyboards
-      shift(-kSmallStep);
-      break;
+      return shift(-kSmallStep);
     case '}':
-      shift(kSmallStep);
-      break;
+      return shift(kSmallStep);
     case SDLK_LEFTBRACKET:
     case SDLK_PAGEDOWN:
-      shift(shift_held ? -kSmallStep : -kShift);
-      break;
+      return shift_held ? shift(-kSmallStep) : act(Action::earlier);
     case SDLK_RIGHTBRACKET:
     case SDLK_PAGEUP:
-      shift(shift_held ? kSmallStep : kShift);
-      break;
-    case SDLK_f:
-      scene_.camera = first_view_;
-      break;
-    case SDLK_l:
-      show_labels(!labels_);
-      break;
+      return shift_held ? shift(kSmallStep) : act(Action::later);
     case SDLK_t:
-      note(step_see_through(scene_, shift_held));
+      return note(step_see_through(scene_, shift_held));
+    default:
       break;
-    case SDLK_TAB:
-      panels_ = !panels_;
-      break;
-    case SDLK_F1:
-    case SDLK_h:
-      help_ = !help_;
-      export_->show(false);
-      break;
-    case SDLK_e:
+  }
+  constexpr std::pair<SDL_Keycode, Action> kLetters[] = {
+      {SDLK_b, Action::beside},     {SDLK_c, Action::compare},   {SDLK_v, Action::slices},
+      {SDLK_f, Action::first_view}, {SDLK_l, Action::labels},    {SDLK_p, Action::picture},
+      {SDLK_e, Action::export_},    {SDLK_TAB, Action::hide},    {SDLK_F1, Action::help},
+      {SDLK_h, Action::help},       {SDLK_i, Action::film_from}, {SDLK_o, Action::film_until}};
+  for (const auto& [sym, action] : kLetters)
+    if (sym == pressed.sym) return act(action);
+}
+
+// What the buttons do, and the keys for the same.
+void Watch::act(Action action) {
+  switch (action) {
+    case Action::play:
+      return play(!now_.playing);
+    case Action::slower:
+      return change_pace(-1);
+    case Action::faster:
+      return change_pace(1);
+    case Action::film_from:
+      return film_here(true);
+    case Action::film_until:
+      return film_here(false);
+    case Action::step_back:
+      return go(now_.t - kStep);
+    case Action::step_on:
+      return go(now_.t + kStep);
+    case Action::stroke_back:
+      return go(stroke_before(now_.t - 0.5));
+    case Action::stroke_on:
+      return go(stroke_after(now_.t));
+    case Action::beside:
+      return ask_beside();
+    case Action::compare:
+      return next_comparison();
+    case Action::earlier:
+      return shift(-kShift);
+    case Action::later:
+      return shift(kShift);
+    case Action::slices:
+      return next_slices();
+    case Action::see_through:
+      return note(step_see_through(scene_, false));
+    case Action::first_view:
+      scene_.camera = first_view_;
+      return;
+    case Action::labels:
+      return show_labels(!labels_);
+    case Action::picture:
+      picture_ = true;
+      return;
+    case Action::export_:
       export_->show(!export_->shown());
       help_ = false;
-      break;
-    case SDLK_p:
-      picture_ = true;
-      break;
-    default:
-      telling_key(pressed.sym);
-      break;
+      return;
+    case Action::help:
+      help_ = !help_;
+      export_->show(false);
+      return;
+    case Action::hide:
+      return show_panels(!panels_);
+    case Action::leave:
+      return leave();
+    default:  // of the page for milling
+      return;
   }
 }
 
-// The keys for films, the comparison and slices.
-void Watch::telling_key(SDL_Keycode sym) {
-  if (sym == SDLK_i || sym == SDLK_o) film_here(sym == SDLK_i);
-  if (sym == SDLK_c) next_comparison();
-  if (sym == SDLK_v) next_slices();
+// While a file is being written, only the second call leaves.
+void Watch::leave() {
+  if (!export_->progress().empty() && !std::exchange(leaves_, true))
+    return note(word(Word::export_wait));
+  closed_ = Closed::page;
+  open_ = false;
+}
+
+void Watch::show_panels(bool shown) {
+  panels_ = shown;
+  if (!shown) note(word(Word::replay_panels_hidden));
 }
 
 void Watch::go(double t) { now_.t = std::clamp(t, 0.0, seconds()); }
@@ -569,11 +630,12 @@ namespace {
 TimelineMoment moment_of(const ReplayView& side, double from) {
   return {.line = &side.line(),
           .from = from,
+          .known = side.known(),
           .force = side.force(),
           .removed = side.removed(),
           .speed = side.speed(),
-          .burr_diameter = 2 * side.tool().radius,
-          .mode = side.tool().mode};
+          .burr_diameter = 2 * side.tool_of_values().radius,
+          .mode = side.tool_of_values().mode};
 }
 
 }  // namespace
@@ -615,10 +677,27 @@ void Watch::ring() const {
   draw.AddCircle(*middle, r, ink::kWarn, 48, 2 * u);
 }
 
+// Between the two bones, where it covers neither place of work. Slices lie there too: then it begins
+// right of those of the left bone.
+void Watch::draw_table(const Facts* left) {
+  if (!comparison_ || compare_ == Compare::none) return;
+  Ui& ui = desk_.ui();
+  const float u = ui.unit(), middle = std::floor(ui.width() / 2), w = Comparison::kWide * u;
+  now_.table = {Action::compare, now_.slices == 0 ? middle - w / 2 : middle + 8 * u, 56 * u, w,
+                ui.height() / 2};
+  if (comparison_->draw(ui, now_.table.x, now_.table.y, left, compare_ == Compare::colours))
+    compare_ = compare_ == Compare::colours ? Compare::table : Compare::colours;
+}
+
 void Watch::panels() {
   Ui& ui = desk_.ui();
   if (dialog_.open()) return dialog_.draw(ui);
   ring();
+  if (!panels_ && !page_open()) {  // only what the user must know to see them again
+    float bottom = ui.height() - 10 * ui.unit();
+    static_cast<void>(line_above(ui, bottom, note_, false, {0, ui.width()}));
+    return;
+  }
   if (panels_) {
     TimelineState s;
     s.first = moment_of(*first_, 0);
@@ -635,26 +714,38 @@ void Watch::panels() {
     if (const edit::Mirror now = tick::mirror_of(first_->tool()); now.on() && !second_)
       draw_mirror_sign(ui, mirror_words(recorded_.bone->grid(), now), 0);
     s.note = note_.empty() ? export_->progress() : note_;
+    s.note_stays = note_stays_ && !note_.empty();
     if (s.note.empty()) s.note = options_.note;
+    now_.line = s.note;
     s.warning = !trouble_.empty()                      ? trouble_
                 : first_->trouble().empty() && second_ ? second_->trouble()
                                                        : first_->trouble();
     if (second_) titles();
-    const float u = ui.unit();
-    if (comparison_ && compare_ != Compare::none &&
-        comparison_->draw(ui, 12 * u, 56 * u, s.first.facts, compare_ == Compare::colours))
-      compare_ = compare_ == Compare::colours ? Compare::table : Compare::colours;
+    draw_table(s.first.facts);
+    if (!scene_.insets.empty() && !second_)
+      s.column = ui.width() - static_cast<float>(scene_.insets.front().x);
     if (now_.slices != 0) {
       first_->slices().write_names(scene_, ui);
       if (second_) second_->slices().write_names(second_->scene(), ui, std::floor(ui.width() / 2));
     }
     const TimelineDone done = draw_timeline(ui, s);
+    now_.buttons = done.places;
+    constexpr float kStrip = 184;  // [points]
+    const auto pressed = draw_replay_bar(ui,
+                                         {.beside = second_.has_value(),
+                                          .compares = comparison_ && compare_ != Compare::none,
+                                          .slices = now_.slices != 0,
+                                          .see_through = scene_.look.opacity < 1,
+                                          .labels = labels_},
+                                         ui.height() - kStrip * ui.unit(), now_.buttons);
     scrubbing_ = done.scrubbed.has_value();
     if (done.scrubbed) go(*done.scrubbed);
     if (done.play) play(!now_.playing);
     if (done.pace != 0) change_pace(done.pace);
     if (done.film_from) film_here(true);
     if (done.film_until) film_here(false);
+    if (done.note_away) note({});
+    pressed_ = pressed;
   }
   if (help_) help_ = draw_replay_help(ui);
   if (export_->shown()) export_->draw();

@@ -8,8 +8,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "burr/math/vec3.h"
+#include "window/mill/toolbar.h"
 #include "window/mill/window_options.h"
 #include "window/replay/playback.h"
 #include "window/shell/desk.h"
@@ -23,6 +25,7 @@ struct Watched {
   bool playing = false;
   double pace = 1;
   bool behind = false;  // the picture of the requested moment is not ready yet
+  bool known = false;   // force and so on are those of the requested moment, and are shown
   double force = 0;     // as shown              [N]
   double removed = 0;   // as shown              [m^3]
   double diameter = 0;  // of the burr, as shown [m]
@@ -34,7 +37,12 @@ struct Watched {
   // slices: 0 none, through the burr of the 1 left, 2 right recording
   bool measured = false, coloured = false;
   int slices = 0;
-  std::string note;  // the last message
+  std::string note;         // the last message
+  std::string line = {};    // above the strip: that message, or how far a film is
+  bool note_stays = false;  // until the user clicks it away
+  bool panels = true, help = false, exporting = false;  // shown
+  std::vector<BarPlace> buttons = {};                   // of the bar and of the strip
+  BarPlace table = {};                                  // of two recordings; w 0: not shown
 };
 
 struct WatchOptions {

@@ -14,6 +14,14 @@ namespace burr::app {
 namespace {
 
 constexpr auto kPatience = std::chrono::milliseconds(150);  // before "..." is shown
+// While playing, values may be so much older than the moment: at eight times the speed two pictures.
+constexpr double kLag = 0.3;   // [s]
+constexpr double kJump = 0.5;  // a longer way forward is a jump; every way back is one [s]
+
+// Whether what is known of moment t may stand for the requested one.
+bool in_time(double t, double wanted, bool playing) {
+  return playing ? t <= wanted && t >= wanted - kLag : t == wanted;
+}
 
 }  // namespace
 
@@ -37,6 +45,7 @@ ReplayView::~ReplayView() {
 void ReplayView::want(double t_s) {
   const double t = std::clamp(t_s, 0.0, line().seconds);
   if (t == wanted_) return;
+  if (t < wanted_ || t > wanted_ + kJump) jump_ = t;
   playback_.want(wanted_ = t);
   settled_ = 0;
 }
@@ -63,10 +72,11 @@ void ReplayView::look(bool effects, bool playing, bool left_handed) {
       scene().burr.shaft_length = burr.shaft_length;
       if (playing && shown_.row.spindle_rad_s > 0)
         scene().burr.turn = std::remainder(scene().burr.turn + 0.7, 6.2832);
-      force_ = shown_.row.contact.force.norm();
-      removed_ = shown_.row.ledger.removed - shown_.row.ledger.undone;
     }
   }
+  Playback::Early early;
+  if (playback_.take_early(early)) values_ = early;
+  known_ = in_time(values_.t, wanted_, playing);
   if (scene().burr.visible && shown_.row.tool.radius > 0) lean_tool(left_handed);
   trouble_ = !shown_.trouble.empty()      ? shown_.trouble
              : !recorded_.notices.empty() ? recorded_.notices.front()
@@ -78,13 +88,20 @@ void ReplayView::look(bool effects, bool playing, bool left_handed) {
   const auto now = std::chrono::steady_clock::now();
   settled_ = whole && shown_.t == wanted_ ? settled_ + 1 : 0;
   if (whole) in_time_ = now;
-  behind_ = !whole && now - in_time_ > kPatience;
+  // after a jump the user sees at once that the picture is another moment's
+  if (settled_ >= kSettled || (playing && shown_.t >= jump_ && in_time(shown_.t, wanted_, true)))
+    jump_ = -1;
+  behind_ = jump_ >= 0 || (!whole && now - in_time_ > kPatience);
   live_.update();
 }
 
 void ReplayView::show_labels(bool shown) {
   scene().tissue_colours = shown ? colours_ : render::as_bone(colours_);
   difference_colours_ = Difference::add_colours(scene().tissue_colours);
+}
+
+tool::ToolState ReplayView::tool_of_values() const {
+  return known_ && values_.row.tool.radius > 0 ? values_.row.tool : line().tool_at(wanted_);
 }
 
 tool::ToolState ReplayView::tool() const {

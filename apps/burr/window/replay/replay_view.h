@@ -54,12 +54,17 @@ class ReplayView {
   [[nodiscard]] render::Scene& scene() { return recorded_.scene; }
   [[nodiscard]] const Recorded& recorded() const { return recorded_; }
   [[nodiscard]] const record::Timeline& line() const { return recorded_.timeline; }
-  [[nodiscard]] double wanted() const { return wanted_; }    // [s]
-  [[nodiscard]] double shown() const { return shown_.t; }    // moment that the scene shows  [s]
-  [[nodiscard]] bool behind() const { return behind_; }      // so long that the user should see it
-  [[nodiscard]] double force() const { return force_; }      // [N]
-  [[nodiscard]] double removed() const { return removed_; }  // [m^3]
-  [[nodiscard]] double speed() const { return shown_.row.spindle_rad_s; }
+  [[nodiscard]] double wanted() const { return wanted_; }  // [s]
+  [[nodiscard]] double shown() const { return shown_.t; }  // moment that the scene shows  [s]
+  [[nodiscard]] bool behind() const { return behind_; }    // so long that the user should see it
+  // The values below are those of the requested moment, or, while playing, of one just before it.
+  [[nodiscard]] bool known() const { return known_; }
+  [[nodiscard]] double force() const { return values_.row.contact.force.norm(); }  // [N]
+  [[nodiscard]] double removed() const {
+    return values_.row.ledger.removed - values_.row.ledger.undone;
+  }  // [m^3]
+  [[nodiscard]] double speed() const { return values_.row.spindle_rad_s; }
+  [[nodiscard]] tool::ToolState tool_of_values() const;
   [[nodiscard]] tool::ToolState tool() const;                            // in the hand then
   [[nodiscard]] const std::string& trouble() const { return trouble_; }  // "": none
 
@@ -76,8 +81,10 @@ class ReplayView {
   int settled_ = 0;
   workshop::LiveSurface live_;
   Playback::Shown shown_;
-  double wanted_ = -1, force_ = 0, removed_ = 0;
-  bool behind_ = false;
+  Playback::Early values_;
+  double wanted_ = -1,
+         jump_ = -1;  // jump_: the moment that was jumped to; below 0: it is there [s]
+  bool behind_ = false, known_ = false;
   std::string trouble_;
   render::HeldTool held_;
   std::chrono::steady_clock::time_point leaned_ = std::chrono::steady_clock::now();

@@ -62,9 +62,12 @@ class Cells {
   float u_, x_, y_;
 };
 
-bool button(const char* id, ImVec2 p, ImVec2 size, float round) {
+bool button(Action action, ImVec2 p, ImVec2 size, float round, TimelineDone& done) {
   ImGui::SetCursorScreenPos(p);
-  const bool pressed = ImGui::InvisibleButton(id, size);
+  ImGui::PushID(static_cast<int>(action));
+  const bool pressed = ImGui::InvisibleButton("##b", size);
+  ImGui::PopID();
+  done.places.push_back({action, p.x, p.y, size.x, size.y});
   ImGui::GetWindowDrawList()->AddRectFilled(
       p, {p.x + size.x, p.y + size.y}, ImGui::IsItemHovered() ? ink::kOver : ink::kButton, round);
   return pressed;
@@ -121,8 +124,16 @@ class Line {
       const float h = (curve_ - room) * u_ * static_cast<float>(std::min(1.0, force / full));
       draw.AddRectFilled({x_ + px, floor - h}, {x_ + px + 1, floor}, ink::kAccent);
     }
-    ui_.write(x_ + 6 * u_, y_ + 1 * u_, Letter::small, ink::kDim,
-              fmt::format("{} (max {:.1f} N)", word(Word::force), line_.peak_force));
+  }
+
+  // What the curve is, where the mark of the moment does not lie over it. Returns its right end.
+  float title(double now) const {
+    const std::string text = fmt::format("{} (max {:.1f} N)", word(Word::force), line_.peak_force);
+    const float wide = ui_.width_of(Letter::small, text), mark = at_clock(now), half = 9 * u_;
+    const float usual = x_ + 6 * u_;
+    const float left = mark < usual + wide + half ? std::max(usual, mark + half) : usual;
+    ui_.write(left, y_ + 1 * u_, Letter::small, ink::kDim, text);
+    return left + wide;
   }
 
   void strokes() const {
@@ -135,7 +146,8 @@ class Line {
                          ink::kWarn, 2 * u_);
   }
 
-  void events() const {
+  // from: letters are written right of it
+  void events(float from) const {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     float free = x_ - 1;  // a letter is drawn only where the one before leaves room
     for (const record::TimelineEvent& event : line_.events) {
@@ -145,16 +157,16 @@ class Line {
       const std::string letter = letter_of(event.command);
       const float wide = ui_.width_of(Letter::small, letter);
       const float left = std::min(px - wide / 2, x_ + w_ - wide);
-      if (left < free || left < x_ + 120 * u_) continue;
+      if (left < free || left < from + 6 * u_) continue;
       ui_.write(left, y_ + 1 * u_, Letter::small, ink::kText, letter);
       free = left + wide + 4 * u_;
     }
   }
 
-  void all() const {
+  void all(double now) const {
     curve();
     strokes();
-    events();
+    events(title(now));
     distance();
   }
 
@@ -337,7 +349,8 @@ void draw_film_buttons(const Ui& ui, float x, float y, TimelineDone& done) {
   ui.write(x + 37 * u, y - 15 * u, Letter::small, ink::kDim, word(Word::export_film), 0.5F);
   for (int n = 0; n < 2; ++n) {
     const ImVec2 at = {x + 40 * static_cast<float>(n) * u, y};
-    const bool pressed = button(n == 0 ? "##filmfrom" : "##filmto", at, {34 * u, 26 * u}, 6 * u);
+    const bool pressed =
+        button(n == 0 ? Action::film_from : Action::film_until, at, {34 * u, 26 * u}, 6 * u, done);
     (n == 0 ? done.film_from : done.film_until) = pressed;
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip("%s  ( %s )", word(n == 0 ? Word::film_from : Word::film_until),
@@ -357,7 +370,7 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
 
   // button: play or pause
   const ImVec2 p = {x + kPad * u, y + 12 * u};
-  done.play = button("##play", p, {44 * u, 38 * u}, 6 * u);
+  done.play = button(Action::play, p, {44 * u, 38 * u}, 6 * u, done);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("%s  ( %s )", word(s.playing ? Word::replay_pause : Word::replay_play),
                       word(Word::key_space));
@@ -375,9 +388,13 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   cells.cell(196, word(Word::time), clock_of(s.t),
              fmt::format("/ {}{}", clock_of(s.seconds), s.behind ? "   …" : ""));
   const bool two = s.second.line != nullptr;
-  // for two recordings: the left one's value, then the right one's
+  // Dots, while those of this moment are not known; of two recordings the left one's, then the right
+  // one's.
   const auto numbers = [&](const auto& number) {
-    return two ? fmt::format("{} | {}", number(s.first), number(s.second)) : number(s.first);
+    const auto one = [&](const TimelineMoment& m) {
+      return m.known ? number(m) : std::string("…");
+    };
+    return two ? fmt::format("{} | {}", one(s.first), one(s.second)) : one(s.first);
   };
   cells.cell(two ? 170 : 112, word(Word::force),
              numbers([](const TimelineMoment& m) { return fmt::format("{:.2f}", m.force); }), "N");
@@ -401,7 +418,7 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   const char* const sign[] = {"-", "+"};
   for (int n = 0; n < 2; ++n) {
     const ImVec2 at = {right - (n == 0 ? 150 : 34) * u, y + 25 * u};
-    if (button(n == 0 ? "##slower" : "##faster", at, {34 * u, 26 * u}, 6 * u))
+    if (button(n == 0 ? Action::slower : Action::faster, at, {34 * u, 26 * u}, 6 * u, done))
       done.pace = n == 0 ? -1 : 1;
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip("%s  ( %s )", word(n == 0 ? Word::slower : Word::faster),
@@ -429,8 +446,8 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (ImGui::IsItemActive()) done.scrubbed = line.clock_at(mouse.x);
   const bool over = ImGui::IsItemHovered();
-  line.all();
-  if (second) second->all();
+  line.all(s.t);
+  if (second) second->all(s.t);
   lowest.scale();
   line.film(s.film_from, s.film_until, line.bottom());
   line.head(s.t, lowest.bottom());
@@ -439,8 +456,9 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   ImGui::End();
 
   float above = y;
-  line_above(ui, above, s.note, false);
-  line_above(ui, above, s.warning, true);
+  const LineRoom room{104 * u, ui.width() - kMargin * u - s.column};  // beside the buttons
+  done.note_away = line_above(ui, above, s.note, false, room, s.note_stays);
+  static_cast<void>(line_above(ui, above, s.warning, true, room));
   return done;
 }
 

@@ -7,9 +7,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "burr/record/timeline.h"
 #include "burr/tick/servo.h"
+#include "window/mill/toolbar.h"
 #include "window/replay/facts.h"
 #include "window/shell/ui.h"
 
@@ -19,6 +21,7 @@ namespace burr::app {
 struct TimelineMoment {
   const record::Timeline* line = nullptr;  // nullptr: no recording
   double from = 0;                         // its start on the shared clock  [s]
+  bool known = true;                       // false: the next three are not those of this moment
   double force = 0;                        // [N]
   double removed = 0;                      // [m^3]
   double speed = 0;                        // of the spindle  [rad/s]
@@ -35,7 +38,9 @@ struct TimelineState {
   double pace = 1;
   double film_from = 0, film_until = 0;  // the part that a film shows  [s]
   std::string note;                      // the last message
+  bool note_stays = false;               // until the user clicks it away
   std::string warning;                   // "" for none
+  float column = 0;                      // at the right, that slices cover [pixel]
 };
 
 struct TimelineDone {
@@ -43,6 +48,8 @@ struct TimelineDone {
   bool play = false;                           // the button play or pause was pressed
   int pace = 0;                                // -1: slower, 1: faster
   bool film_from = false, film_until = false;  // the film begins, ends at this moment
+  bool note_away = false;                      // the note was clicked away
+  std::vector<BarPlace> places = {};           // where the buttons lie
 };
 
 [[nodiscard]] TimelineDone draw_timeline(Ui& ui, const TimelineState& state);

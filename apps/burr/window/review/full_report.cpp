@@ -31,11 +31,13 @@ void FullReport::ask() {
   }
 }
 
-void FullReport::step() {
+void FullReport::step(bool shows) {
   if (!child_ || !child_->ended()) return;
   written_ = child_->fine();
-  if (written_)
+  if (written_ && shows)
     show();
+  else if (written_)
+    note_ = say(Word::review_written, page_);
   else
     note_ = child_->complaint(word(Word::review_not_begun));
   child_.reset();

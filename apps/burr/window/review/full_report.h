@@ -1,7 +1,7 @@
 // apps/burr/window/review/full_report.h - writes the full report of a recording as a second process
 // does it, `burr report`, and shows it with the program that the desktop has for pages.
 //
-// Thread: main. Nothing waits for the process.
+// Thread: main. Nothing waits for the process, and it goes on when this object is gone.
 #pragma once
 
 #include <memory>
@@ -21,12 +21,19 @@ class FullReport {
         rubric_(std::move(rubric)),
         volume_(std::move(volume)),
         page_(std::move(page)) {}
+  ~FullReport() {
+    if (child_) child_->let_go();
+  }
+  FullReport(const FullReport&) = delete;
+  FullReport& operator=(const FullReport&) = delete;
   // Begins to write the page; shows it at once if that was done already.
   void ask();
-  void step();  // once a picture
+  // Once a picture. shows: the page that is written now is shown at once.
+  void step(bool shows = true);
   [[nodiscard]] bool writes() const { return child_ != nullptr; }
   [[nodiscard]] bool written() const { return written_; }
   [[nodiscard]] const std::string& note() const { return note_; }  // for the user; empty: nothing
+  [[nodiscard]] const std::string& page() const { return page_; }
 
  private:
   void show();

@@ -1,6 +1,7 @@
 #include "window/review/review.h"
 
 #include <SDL2/SDL.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
@@ -33,8 +34,10 @@ constexpr double kBefore = 3, kAfter = 1;  // of a moment, are played [s]
 
 // Draws a page until it has an answer; nothing moves on it, so thirty pictures a second are enough.
 // closed: the user closed the window, or burr was interrupted.
+// enter: what the key does; not while the keyboard is used to choose a button.
 Status show_until(Desk& desk, const std::function<bool()>& draw,
-                  const std::function<void()>& escape, double seconds, bool& closed) {
+                  const std::function<void()>& escape, const std::function<void()>& enter,
+                  double seconds, bool& closed) {
   const render::Scene empty;
   const Clock::time_point start = Clock::now();
   bool answered = false;
@@ -44,7 +47,10 @@ Status show_until(Desk& desk, const std::function<bool()>& draw,
     SDL_Event event;
     while (desk.next(event)) {
       if (event.type == SDL_QUIT) closed = true;
-      if (event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_ESCAPE) escape();
+      if (event.type != SDL_KEYDOWN) continue;
+      const SDL_Keycode key = event.key.keysym.sym;
+      if (key == SDLK_ESCAPE) escape();
+      if ((key == SDLK_RETURN || key == SDLK_KP_ENTER) && !ImGui::GetIO().NavVisible) enter();
     }
     const Status shown = desk.show(
         empty, [&] { answered = draw() || answered; }, true);
@@ -75,8 +81,9 @@ class Review {
       : desk_(desk),
         options_(options),
         volume_(own_scan(options.volume)),
-        full_(options.file, options.rubric, volume_,
-              std::filesystem::path(options.file).replace_extension(".html").string()) {
+        full_(std::make_shared<FullReport>(
+            options.file, options.rubric, volume_,
+            std::filesystem::path(options.file).replace_extension(".html").string())) {
     if (!options.marks) return;
     marking_ = std::make_unique<Loading<Report>>(
         [file = options.file, rubric = options.rubric, volume = volume_](Progress& progress) {
@@ -98,23 +105,38 @@ class Review {
             seen = pressed_.item;
             return leaves || seen != nullptr || pressed_.close || pressed_.again;
           },
-          [&] { leaves = true; }, options_.seconds, closed);
+          [&] { leaves = true; }, [] {}, options_.seconds, closed);
       if (!shown) return shown.error();
       if (closed) return leave_with(Closed::window);
-      if (pressed_.again) return Closed::again;
+      if (pressed_.again) return leave_with(Closed::again);
       if (seen == nullptr) return leave_with(Closed::page);
       auto played = play(*seen);
       if (!played) return played.error();
-      if (*played == Closed::window) return Closed::window;
+      if (*played == Closed::window) return leave_with(Closed::window);
     }
   }
 
  private:
   Result<Closed> leave_with(Closed how) {
+    leave_report();
     if (options_.screenshot.empty()) return how;
     const Status kept = render::write_png(desk_.renderer().shown(), options_.screenshot);
     if (!kept) return kept.error();
     return how;
+  }
+
+  // A report that is not written yet goes on without this page, and the start page says so. The
+  // terminal does too, because burr may end before.
+  void leave_report() {
+    if (!full_->writes()) return;
+    desk_.told = say(Word::review_goes_on, full_->page());
+    fmt::print(stderr, "{}\n", desk_.told);
+    desk_.under_way.emplace_back([&desk = desk_, report = full_] {
+      report->step(desk.page == Page::start);  // nobody wants a browser over a session
+      if (report->writes()) return false;
+      desk.told = report->note();
+      return true;
+    });
   }
 
   void draw() {
@@ -126,7 +148,7 @@ class Review {
       else
         trouble_ = made.error().text;
     }
-    full_.step();
+    full_->step();
     ReviewState state;
     state.title = options_.title;
     state.report = report_ ? &*report_ : nullptr;
@@ -134,8 +156,8 @@ class Review {
     state.trouble = trouble_;
     state.exam = !options_.marks;
     state.repeats = options_.repeats;
-    state.writes = full_.writes();
-    state.note = note_.empty() ? full_.note() : note_;
+    state.writes = full_->writes();
+    state.note = note_.empty() ? full_->note() : note_;
     desk_.status_text = state.note;
     if (report_) {
       desk_.status_text += " " + report_->unfinished;
@@ -144,7 +166,7 @@ class Review {
     pressed_ = draw_review(desk_.ui(), state);
     if (pressed_.full) {
       note_.clear();
-      full_.ask();
+      full_->ask();
     }
   }
 
@@ -188,7 +210,7 @@ class Review {
   std::optional<Report> report_;
   std::string trouble_, note_;
   std::unique_ptr<Recorded> recorded_;
-  FullReport full_;
+  std::shared_ptr<FullReport> full_;
   std::unique_ptr<Loading<Report>> marking_;  // last: its thread ends first
 };
 
@@ -212,7 +234,7 @@ Result<bool> ask_self_marks(Desk& desk, const scenario::Case& work, record::Diar
         if (pressed == Pressed::nothing) pressed = page.draw(desk.ui());
         return pressed != Pressed::nothing;
       },
-      [&] { pressed = Pressed::skipped; }, seconds, closed);
+      [&] { pressed = Pressed::skipped; }, [&] { pressed = Pressed::finished; }, seconds, closed);
   if (!shown) return shown.error();
   // also when the window was closed: what was marked is marked
   if (pressed != Pressed::skipped)

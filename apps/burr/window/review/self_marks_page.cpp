@@ -1,5 +1,7 @@
 #include "window/review/self_marks_page.h"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "window/shell/words.h"
@@ -78,17 +80,17 @@ void SelfMarksPage::part(Ui& ui, std::size_t p, float wide) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float line = at.y + 10 * u + (ImGui::GetFrameHeight() - ui.height_of(Letter::body)) / 2;
   ui.write(at.x + (kButtons + 2 * kGap) * u, line, Letter::strong, ink::kAccent, parts_[p].title);
-  // what nobody has marked yet, with one press
-  float x = at.x + wide;
-  for (const auto& [one, text] : {std::pair{Mark::unmet, Word::report_verdict_unmet},
-                                  std::pair{Mark::met, Word::report_verdict_met}}) {
-    x -= (kButton + kGap) * u;
+  // what nobody has marked yet, with one press, in the columns of the answers
+  float x = at.x + kGap * u;
+  for (const auto& [one, text] : {std::pair{Mark::met, Word::report_verdict_met},
+                                  std::pair{Mark::unmet, Word::report_verdict_unmet}}) {
     ImGui::SetCursorScreenPos({x, at.y + 10 * u});
     if (ImGui::Button(word(text), {kButton * u, 0}))
       for (Mark& mark : marks_[p])
         if (mark == Mark::none) mark = one;
+    x += (kButton + kGap) * u;
   }
-  ui.write(x - kGap * u, line, Letter::small, ink::kDim, word(Word::self_rest), 1);
+  ui.write(x + kGap * u, line, Letter::small, ink::kDim, word(Word::self_rest));
   ImGui::SetCursorScreenPos({at.x, at.y + high});
   for (std::size_t n = 0; n < parts_[p].items.size(); ++n)
     row(ui, parts_[p].items[n], marks_[p][n], wide);
@@ -110,7 +112,9 @@ SelfMarksPage::Pressed SelfMarksPage::draw(Ui& ui) {
   ImGui::EndChild();
   ImGui::PopStyleVar();
   ImGui::SetCursorScreenPos({x, ui.height() - 50 * u});
-  if (ImGui::Button(word(Word::self_finish))) pressed = Pressed::finished;
+  const std::string finish =
+      fmt::format("{}  [{}]", word(Word::self_finish), word(Word::key_enter));
+  if (ImGui::Button(finish.c_str())) pressed = Pressed::finished;
   ImGui::SameLine();
   if (ImGui::Button(word(Word::self_skip))) pressed = Pressed::skipped;
   std::size_t all = 0;

@@ -75,9 +75,9 @@ constexpr Known kKnown[] = {
 
 using Titles = std::map<std::string, scenario::Texts, std::less<>>;
 
-// Of the case: of its structures, and of the tissues that belong to them.
+// Of the case: of its structures, of the tissues that belong to them, of landmarks and regions.
 struct OfCase {
-  Titles structures, tissues;
+  Titles structures, tissues, places;
 };
 OfCase& of_case() {
   static OfCase all;
@@ -100,6 +100,10 @@ void take_titles_of(const scenario::Lesson* lesson) {
     of_case().structures.emplace(one.name, one.title);
     for (const std::string& tissue : one.names) of_case().tissues.emplace(tissue, one.title);
   }
+  for (const scenario::CaseRegion& one : lesson->regions)
+    if (!one.title.empty()) of_case().places.emplace(one.name, one.title);
+  for (const scenario::Landmark& one : lesson->landmarks)
+    if (!one.title.empty()) of_case().places.emplace(one.name, one.title);
 }
 
 std::string anatomy(std::string_view name) {
@@ -110,6 +114,11 @@ std::string anatomy(std::string_view name) {
   // several tissues may belong to one structure: their own names tell more, where burr knows them
   if (auto title = title_in(of_case().tissues, name)) return *std::move(title);
   return base::printable(name, kLongest);
+}
+
+std::string place_name(std::string_view name) {
+  if (auto title = title_in(of_case().places, name)) return *std::move(title);
+  return anatomy(name);
 }
 
 std::string anatomy_list(const std::vector<std::string>& names) {

@@ -21,6 +21,9 @@ namespace burr::app {
 // theirs that burr does not know; nullptr: those of no case.
 void take_titles_of(const scenario::Lesson* lesson);
 
+// The title of a place of that case, which is a landmark or a region; without one as anatomy().
+[[nodiscard]] std::string place_name(std::string_view name);
+
 // All of them, "facial nerve, dura".
 [[nodiscard]] std::string anatomy_list(const std::vector<std::string>& names);
 

@@ -155,6 +155,7 @@ Status Desk::renew() {
 }
 
 Status Desk::show(const render::Scene& scene, const std::function<void()>& panels, bool keys) {
+  std::erase_if(under_way, [](const std::function<bool()>& ended) { return ended(); });
   // quad buffers can only be requested when a window is made
   if (settings.stereo == render::Stereo::quad_buffer && !asked_quads_)
     if (const Status anew = renew(); !anew) return anew;

@@ -42,9 +42,12 @@ class Desk {
   std::vector<std::string> troubles;  // about the settings file and stereo; shown once
   Page page = Page::none;             // the page that is shown now
   std::string message;                // start and import pages: the error that is shown
-  Status lost = fine();               // what could not be recorded; the program ends with it
-  std::string status_text;            // milling page: warning, last note; review: what was met
-  Gamepads pads;                      // input other than the mouse
+  std::string told;  // start page: a line that is no error, until it is clicked away
+  // What a page that was left still has under way, looked at in each picture; true: it has ended.
+  std::vector<std::function<bool()>> under_way;
+  Status lost = fine();     // what could not be recorded; the program ends with it
+  std::string status_text;  // milling page: warning, last note; review: what was met
+  Gamepads pads;            // input other than the mouse
   Pedals pedals;
   SpaceMouse cap;
   std::function<void()> after_frame;  // called after each picture, for tests and watchers

@@ -61,7 +61,7 @@ bool burr_reads(const std::string& name) {
                      [&](const char* ending) { return small.ends_with(ending); });
 }
 
-Result<std::vector<FolderEntry>> entries_of(const fs::path& folder, bool all) {
+Result<std::vector<FolderEntry>> entries_of(const fs::path& folder, Listed listed) {
   constexpr std::size_t kMost = 20'000;
   std::vector<FolderEntry> entries;
   std::error_code trouble;
@@ -72,7 +72,9 @@ Result<std::vector<FolderEntry>> entries_of(const fs::path& folder, bool all) {
     if (entry.name.empty() || entry.name[0] == '.') continue;
     std::error_code nobody_asks;
     entry.folder = at->is_directory(nobody_asks);
-    if (!entry.folder && !all && !burr_reads(entry.name)) continue;
+    if (!entry.folder && listed == Listed::burr_reads && !burr_reads(entry.name)) continue;
+    if (!entry.folder && listed == Listed::recordings && !lower(entry.name).ends_with(".mcap"))
+      continue;
     if (!entry.folder) entry.bytes = at->file_size(nobody_asks);
     if (nobody_asks) entry.bytes = 0;
     entries.push_back(std::move(entry));
@@ -85,10 +87,11 @@ Result<std::vector<FolderEntry>> entries_of(const fs::path& folder, bool all) {
   return entries;
 }
 
-void FileDialog::ask(const std::string& title) {
+void FileDialog::ask(const std::string& title, Wanted wanted) {
   if (open_) return;
   open_ = true;
   saves_ = false;
+  recordings_ = wanted == Wanted::recordings;
   title_ = title;
   go_to(folder_.empty() ? home() : folder_);
 }
@@ -96,6 +99,7 @@ void FileDialog::ask(const std::string& title) {
 void FileDialog::ask_where(const std::string& suggested) {
   if (open_) return;
   open_ = saves_ = true;
+  recordings_ = false;
   title_ = word(Word::dialog_save);
   std::error_code trouble;
   const fs::path path = fs::absolute(cleaned_path(suggested), trouble);
@@ -119,7 +123,7 @@ void FileDialog::go_to(fs::path folder) {
   std::error_code trouble;
   const fs::path whole = fs::weakly_canonical(folder, trouble);
   if (!trouble) folder = whole;
-  auto entries = entries_of(folder, all_);
+  auto entries = entries_of(folder, listed());
   trouble_ = entries ? std::string() : entries.error().text;
   if (!entries && !entries_.empty()) return;
   entries_ = entries ? std::move(*entries) : std::vector<FolderEntry>();
@@ -212,7 +216,8 @@ void FileDialog::rows(const Ui& ui, float wide, float high) {
   }
   if (entries_.empty())
     ui.write(ImGui::GetCursorScreenPos().x + 12 * u, ImGui::GetCursorScreenPos().y + 10 * u,
-             Letter::body, ink::kDim, word(Word::dialog_nothing));
+             Letter::body, ink::kDim,
+             word(recordings_ ? Word::dialog_no_recording : Word::dialog_nothing));
   ImGui::EndChild();
   ImGui::PopStyleVar();
   if (taken) take(*taken);
@@ -225,7 +230,8 @@ void FileDialog::last_line(Ui& ui, float x, float y, float w) {
     if (text_field("##name", word(Word::dialog_name), name_, 300 * u) && !name_.empty())
       return finish(folder_ / name_);
   } else {
-    if (ImGui::RadioButton(word(Word::dialog_some), !all_) && std::exchange(all_, false)) read();
+    const Word some = recordings_ ? Word::dialog_recordings : Word::dialog_some;
+    if (ImGui::RadioButton(word(some), !all_) && std::exchange(all_, false)) read();
     ImGui::SameLine();
     if (ImGui::RadioButton(word(Word::dialog_all), all_) && !std::exchange(all_, true)) read();
   }
@@ -235,7 +241,9 @@ void FileDialog::last_line(Ui& ui, float x, float y, float w) {
     return std::pair{ImGui::Button(word(name), {wide, 0}), right - wide - 10 * u};
   };
   const auto [take_it, left] = button(x + w, saves_ ? Word::dialog_write : Word::dialog_take);
-  const auto [whole, middle] = saves_ ? std::pair{false, left} : button(left, Word::dialog_folder);
+  // a folder of slices is a scan, and never a recording
+  const auto [whole, middle] =
+      saves_ || recordings_ ? std::pair{false, left} : button(left, Word::dialog_folder);
   const auto [stop, rest] = button(middle, Word::dialog_cancel);
   static_cast<void>(rest);
   if (stop) return cancel();

@@ -25,17 +25,20 @@ struct FolderEntry {
   bool folder = false;
   std::uintmax_t bytes = 0;  // of a file
 };
-// Folders first, then files, by name; nothing hidden; at most 20 000. all: not only what burr reads.
-// Error: the folder cannot be read.
+// Which files a list shows.
+enum class Listed { all, burr_reads, recordings };
+// Folders first, then files, by name; nothing hidden; at most 20 000. Error: the folder cannot be
+// read.
 [[nodiscard]] Result<std::vector<FolderEntry>> entries_of(const std::filesystem::path& folder,
-                                                          bool all);
+                                                          Listed listed);
 // By its name: a scan, a case, a recording, or a file without an ending, as DICOM files often are.
 [[nodiscard]] bool burr_reads(const std::string& name);
 
 class FileDialog {
  public:
-  // For something to be opened: a file, or a folder of slices. title: of the dialog.
-  void ask(const std::string& title);
+  // For something to be opened. title: of the dialog. anything: a file, or a folder of slices.
+  enum class Wanted { anything, recordings };
+  void ask(const std::string& title, Wanted wanted = Wanted::anything);
   // For a file that will be written. The dialog does not ask whether it may replace another file.
   void ask_where(const std::string& suggested);
   [[nodiscard]] bool open() const { return open_; }
@@ -56,7 +59,11 @@ class FileDialog {
   void rows(const Ui& ui, float wide, float high);
   void last_line(Ui& ui, float x, float y, float w);
 
-  bool open_ = false, saves_ = false, all_ = false, show_chosen_ = false;
+  [[nodiscard]] Listed listed() const {
+    return all_ ? Listed::all : recordings_ ? Listed::recordings : Listed::burr_reads;
+  }
+
+  bool open_ = false, saves_ = false, all_ = false, show_chosen_ = false, recordings_ = false;
   std::string title_, path_, name_, trouble_, begun_;  // begun_: letters of a name, typed just now
   double typed_at_ = 0;                                // ImGui's clock [s]
   std::filesystem::path folder_;

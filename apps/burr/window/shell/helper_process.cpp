@@ -76,7 +76,7 @@ HelperProcess::HelperProcess(const std::vector<std::string>& words, int nice) {
 }
 
 HelperProcess::~HelperProcess() {
-  if (pid_ > 0 && !ended()) {
+  if (pid_ > 0 && !let_go_ && !ended()) {
     ::kill(pid_, SIGKILL);
     ::waitpid(pid_, nullptr, 0);
   }

@@ -1,5 +1,5 @@
 // apps/burr/window/shell/helper_process.h - another program beside the window: its error messages are
-// read, and it ends with this object.
+// read, and it ends with this object, unless it was let go.
 //
 //     HelperProcess child({burr_itself(), "--quiet", "report", ...});
 //     if (!child.began()) ...
@@ -34,7 +34,8 @@ class HelperProcess {
   HelperProcess& operator=(const HelperProcess&) = delete;
 
   [[nodiscard]] bool began() const { return pid_ > 0; }
-  void stop() const;  // as Ctrl-C does
+  void stop() const;                 // as Ctrl-C does
+  void let_go() { let_go_ = true; }  // it goes on when this object is gone
   [[nodiscard]] bool ended();
   [[nodiscard]] bool fine() const;  // call it after ended()
   // The last line of its messages so far; "": none.
@@ -45,7 +46,7 @@ class HelperProcess {
  private:
   pid_t pid_ = -1;
   int said_at_ = -1, status_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, let_go_ = false;
   std::string said_;
 };
 

@@ -23,9 +23,6 @@ SharedProgress::Now SharedProgress::now() const {
   return now_;
 }
 
-namespace {
-
-// The step in the user's language; one that has no words is shown as the program calls it.
 std::string stage_words(const std::string& stage) {
   constexpr std::pair<std::string_view, Word> kKnown[] = {
       {"reading", Word::stage_reading},
@@ -42,6 +39,8 @@ std::string stage_words(const std::string& stage) {
     if (stage == known) return word(says);
   return stage;
 }
+
+namespace {
 
 // returns true if the user cancels
 bool draw_loading(Ui& ui, const std::string& title, const SharedProgress::Now& now, bool stopping) {

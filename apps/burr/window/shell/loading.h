@@ -68,6 +68,9 @@ class Loading {
   std::jthread thread_;  // last: starts after the other members, ends before them
 };
 
+// The step of a work in the user's language; one that has no words is shown as the program calls it.
+[[nodiscard]] std::string stage_words(const std::string& stage);
+
 // Shows the loading page until finished(). false: the user cancelled, and `progress` was cancelled.
 // closed: set if the user closed the window.
 [[nodiscard]] Result<bool> watch_loading(Desk& desk, const std::string& title,

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "burr/render/picture.h"
 #include "commands/interrupt.h"
 #include "commands/work.h"
 #include "window/import/import_page.h"
+#include "window/import/notice_words.h"
 #include "window/mill/window.h"
 #include "window/replay/playback.h"
 #include "window/review/review.h"
@@ -140,6 +142,12 @@ Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::R
   auto recorded = open(file, closed);
   if (closed) return Closed::window;
   if (!recorded) return recorded.error();
+  // a kept session is in the list of sessions already, and goes when that throws it away
+  const std::filesystem::path sessions = desk.places().state / "sessions";
+  std::error_code nobody_asks;
+  if (!std::filesystem::equivalent(std::filesystem::absolute(file, nobody_asks).parent_path(),
+                                   sessions, nobody_asks))
+    remember(desk.places().state, file, word(Word::start_recording));
   WatchOptions with = options;
   with.open = open;
   return watch(desk, *recorded, with);
@@ -179,7 +187,8 @@ Result<Closed> work_on(Desk& desk, StartPage::Choice& choice, const PagesOptions
   std::error_code nobody_asks;
   if (!goes_on && std::filesystem::exists(chosen.volume.source, nobody_asks))
     remember(desk.places().state, chosen.volume.source, ready->title);
-  for (const std::string& notice : ready->import.notices) desk.troubles.push_back(notice);
+  for (const std::string& notice : ready->import.notices)
+    desk.troubles.push_back(notice_words(notice));
   return mill_and_keep(desk, *ready, chosen, goes_on,
                        {.seconds = options.seconds,
                         .folder = options.folder,

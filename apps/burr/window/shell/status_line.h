@@ -16,6 +16,12 @@ class StatusLine {
   static constexpr std::chrono::seconds kShown{6};
 
   void note(std::string text, Clock::time_point now) { note_ = {std::move(text), now}; }
+  // A note that stays until it is forgotten, or until the next one: somebody waited for it.
+  void keep(std::string text) { note_ = {std::move(text), {}, true}; }
+  [[nodiscard]] bool kept() const { return note_.stays; }
+  void forget_kept() {
+    if (note_.stays) note_ = {};
+  }
   void warn_released(std::string text, Clock::time_point now) {
     released_ = {std::move(text), now};
   }
@@ -32,10 +38,11 @@ class StatusLine {
  private:
   struct Line {
     std::string text;
-    Clock::time_point at;
+    Clock::time_point at = {};
+    bool stays = false;
   };
   static bool fresh(const Line& line, Clock::time_point now) {
-    return !line.text.empty() && now - line.at <= kShown;
+    return !line.text.empty() && (line.stays || now - line.at <= kShown);
   }
   Line note_, released_;
 };

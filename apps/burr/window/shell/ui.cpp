@@ -88,12 +88,15 @@ void Ui::event(const SDL_Event& event) {
     case SDL_MOUSEMOTION:
       mouse_x_ = static_cast<float>(event.motion.x);
       mouse_y_ = static_cast<float>(event.motion.y);
+      if (!mouse_.empty() && mouse_.back().button < 0)
+        mouse_.back() = {mouse_x_, mouse_y_, -1, false};
+      else
+        mouse_.push_back({mouse_x_, mouse_y_, -1, false});
       break;
     case SDL_MOUSEBUTTONDOWN:
-      down_[button(event.button.button)] = pressed_[button(event.button.button)] = true;
-      break;
     case SDL_MOUSEBUTTONUP:
-      down_[button(event.button.button)] = false;
+      mouse_.push_back(
+          {mouse_x_, mouse_y_, button(event.button.button), event.type == SDL_MOUSEBUTTONDOWN});
       break;
     case SDL_MOUSEWHEEL:
       io.MouseWheel += static_cast<float>(event.wheel.y);
@@ -131,6 +134,7 @@ void Ui::event(const SDL_Event& event) {
       if (event.window.event != SDL_WINDOWEVENT_FOCUS_LOST) break;
       std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
       std::fill(std::begin(down_), std::end(down_), false);
+      std::erase_if(mouse_, [](const MouseStep& step) { return step.button >= 0; });
       break;
     default:
       break;
@@ -160,12 +164,10 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
   from_window_ = static_cast<float>(width) / static_cast<float>(std::max(1, window_width));
   static_cast<void>(window_height);
   io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
-  io.MousePos = mouse_x_ < 0 ? ImVec2(-1e30F, -1e30F)
-                             : ImVec2(mouse_x_ * from_window_, mouse_y_ * from_window_);
-  for (int b = 0; b < 3; ++b) {
-    io.MouseDown[b] = down_[b] || pressed_[b];  // also count a click shorter than a frame
-    pressed_[b] = false;
-  }
+  take_mouse();
+  io.MousePos =
+      seen_x_ < 0 ? ImVec2(-1e30F, -1e30F) : ImVec2(seen_x_ * from_window_, seen_y_ * from_window_);
+  for (int b = 0; b < 3; ++b) io.MouseDown[b] = down_[b];
   for (const SDL_Scancode scancode : up_) io.KeysDown[scancode] = false;
   up_ = std::exchange(let_go_, {});
   // a modifier that was pressed and released within one frame counts in that frame, and ends in the next
@@ -186,6 +188,20 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
   boxes_.clear();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
+}
+
+// Up to the next change of a button: on a slow computer a whole click, and a way from there to
+// elsewhere, may happen within one picture.
+void Ui::take_mouse() {
+  while (!mouse_.empty()) {
+    const MouseStep step = mouse_.front();
+    mouse_.pop_front();
+    seen_x_ = step.x;
+    seen_y_ = step.y;
+    if (step.button < 0) continue;
+    down_[step.button] = step.down;
+    return;
+  }
 }
 
 void Ui::draw() {

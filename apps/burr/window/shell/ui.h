@@ -6,7 +6,8 @@
 //
 // Sizes are in pixels of the drawing area; unit() is the number of pixels in one point of the
 // design and depends on the display's scale. The position of the mouse comes from events only, so
-// that a test can act as a user by pushing events. The colours can be distinguished by colour-blind
+// that a test can act as a user by pushing events. A click counts where it was made, however far the
+// mouse has gone on before the next picture. The colours can be distinguished by colour-blind
 // people (Okabe and Ito), and a colour never carries a meaning alone: a word or a shape shows the
 // same. Letters have the contrast of WCAG level AA (contrast.h, tests/window/contrast_test.cpp). Thread: main, with the renderer's context; one at a time. Cost: drawing of panels only, a
 // few thousand triangles.
@@ -15,6 +16,7 @@
 #include <SDL2/SDL_events.h>
 #include <imgui/imgui.h>
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -92,7 +94,16 @@ class Ui {
   float unit_ = 0;
   float from_window_ = 1;  // pixels per unit of the window
   float mouse_x_ = -1, mouse_y_ = -1;
-  bool down_[3] = {}, pressed_[3] = {};
+  // What the mouse did and no picture has seen yet: one button goes down or up in a picture.
+  struct MouseStep {
+    float x, y;
+    int button;  // below 0: it only moved
+    bool down;
+  };
+  void take_mouse();
+  std::deque<MouseStep> mouse_;
+  float seen_x_ = -1, seen_y_ = -1;  // as the panels see it now
+  bool down_[3] = {};
   std::vector<Box> boxes_;
   // a key that is released in the frame in which it was pressed stays down for one frame
   std::vector<SDL_Scancode> fresh_, let_go_, up_;

@@ -82,7 +82,7 @@ class Autosave {
   std::string trouble_;
 };
 
-// Scans and case files that were opened recently, newest first.
+// Scans, case files and recordings that were opened recently, newest first.
 struct Recent {
   std::string path, title, when;
 };

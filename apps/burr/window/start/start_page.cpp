@@ -143,6 +143,10 @@ void StartPage::open(std::string path) {
   WorkOptions options;
   options.volume.source = cleaned_path(std::move(path));
   options.identity = identity_;
+  // a scan of one's own has no steps that these two could be about; an exam stays one
+  const bool guided =
+      identity_.mode == record::Mode::learn || identity_.mode == record::Mode::practise;
+  if (guided && names_a_scan(options)) options.identity.mode = record::Mode::free;
   if (!options.volume.source.empty())
     choice_ = Choice{.open = std::move(options), .go_on = {}, .marks_of = {}, .quit = false};
 }
@@ -175,6 +179,7 @@ void StartPage::draw() {
   modes(x + 256 * u, top + 88 * u);
   cards(x, top + 124 * u);
   draw_message(x, top + 528 * u, 752 * u);
+  draw_told(x, top + 622 * u, 752 * u);
 
   const float right = x + 788 * u, w = 392 * u;
   own_scan(right, top + 96 * u, w);
@@ -301,6 +306,27 @@ bool StartPage::row(const char* id, float x, float& y, float w, const std::strin
   return pressed;
 }
 
+namespace {
+
+// A button with a triangle, as that of the page that plays a recording.
+bool play_button(float u, std::size_t number, ImVec2 p, ImVec2 size) {
+  ImGui::SetCursorScreenPos(p);
+  const bool pressed = ImGui::Button(fmt::format("##play{}", number).c_str(), size);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(Word::start_play_told));
+  const ImVec2 c = {p.x + size.x / 2, p.y + size.y / 2};
+  ImGui::GetWindowDrawList()->AddTriangleFilled(
+      {c.x - 4 * u, c.y - 6 * u}, {c.x - 4 * u, c.y + 6 * u}, {c.x + 7 * u, c.y}, ink::kText);
+  return pressed;
+}
+
+}  // namespace
+
+void StartPage::play(const KeptSession& kept) {
+  WorkOptions options;
+  options.volume.source = kept.file.string();
+  choice_ = Choice{.open = std::move(options), .go_on = {}, .marks_of = {}, .quit = false};
+}
+
 void StartPage::sessions(float x, float& y, float w) {
   Ui& ui = desk_.ui();
   const float u = ui.unit();
@@ -317,21 +343,21 @@ void StartPage::sessions(float x, float& y, float w) {
     const std::string& source = kept.options.volume.source;
     const bool built_in = std::find(names.begin(), names.end(), source) != names.end();
     const std::string title = built_in ? name_of_case(source) : kept.title;
-    const std::string right =
-        kept.clean ? fmt::format("{} - {}", minutes(kept.seconds), kept.when) : kept.when;
     std::string tip = title + "\n";
     if (!kept.clean) tip += fmt::format("{} - ", word(Word::start_unclean));
     if (kept.keep) tip += fmt::format("{} - ", word(Word::start_kept));
     tip += fmt::format("{} - {:.0f} mm³ - {}", minutes(kept.seconds), kept.removed_mm3, kept.when);
     // the marks of a session on a case, also of one that did not come to its end
-    const float beside = kept.marks ? 84 * u : 0, top = y;
-    if (row(fmt::format("##kept{}", n).c_str(), x, y, w - beside, title, right, !kept.clean))
+    const float playing = 38 * u, beside = playing + (kept.marks ? 84 * u : 0), top = y;
+    if (row(fmt::format("##kept{}", n).c_str(), x, y, w - beside, title, kept.when, !kept.clean))
       choice_ = Choice{.open = {}, .go_on = kept, .marks_of = {}, .quit = false};
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip.c_str());
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s\n%s", word(Word::start_go_on_told), tip.c_str());
+    if (play_button(u, n, {x + w - beside + 4 * u, top}, {playing - 4 * u, 28 * u})) play(kept);
     if (!kept.marks) continue;
-    ImGui::SetCursorScreenPos({x + w - beside + 4 * u, top});
+    ImGui::SetCursorScreenPos({x + w - beside + playing + 4 * u, top});
     if (ImGui::Button(fmt::format("{}##marks{}", word(Word::start_marks), n).c_str(),
-                      {beside - 4 * u, 28 * u}))
+                      {beside - playing - 4 * u, 28 * u}))
       choice_ = Choice{.open = {}, .go_on = {}, .marks_of = kept, .quit = false};
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(Word::start_marks_told));
   }
@@ -350,6 +376,24 @@ void StartPage::recents(float x, float& y, float w) {
         desk_.settings.recent_names ? fs::path(one.path).filename().string() : one.title;
     if (row(fmt::format("##recent{}", n).c_str(), x, y, w, name, one.when, false)) open(one.path);
   }
+}
+
+// What is no error: a frame without a warning sign. A click takes it away.
+void StartPage::draw_told(float x, float y, float w) {
+  if (desk_.told.empty()) return;
+  const Ui& ui = desk_.ui();
+  const float u = ui.unit(), h = 30 * u;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  ImGui::SetCursorScreenPos({x, y});
+  const bool away = ImGui::InvisibleButton("##toldaway", {w, h});
+  draw.AddRectFilled({x, y}, {x + w, y + h}, ImGui::IsItemHovered() ? ink::kOver : ink::kButton,
+                     6 * u);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s\n%s", desk_.told.c_str(), word(Word::line_close));
+  draw.PushClipRect({x, y}, {x + w - 10 * u, y + h}, true);
+  ui.write(x + 14 * u, y + 7 * u, Letter::body, ink::kText, desk_.told);
+  draw.PopClipRect();
+  if (away) desk_.told.clear();
 }
 
 void StartPage::draw_message(float x, float y, float w) {

@@ -47,6 +47,8 @@ class StartPage {
   void recents(float x, float& y, float w);
   void modes(float x, float y);
   void draw_message(float x, float y, float w);
+  void draw_told(float x, float y, float w);
+  void play(const KeptSession& kept);
   [[nodiscard]] bool row(const char* id, float x, float& y, float w, const std::string& left,
                          const std::string& right, bool mark);
   void open(std::string path);
