@@ -204,6 +204,7 @@ TEST_F(ReplayByMouse, EveryButtonDoesWhatItsKeyDoes) {
            "no table", [&] { return seen_.table.w == 0; }, Action::beside),
        then(
            "one again", [&] { return !seen_.beside; }, Action::leave)});
+  ASSERT_FALSE(again.rgb.empty());
   const auto between = [](const render::Image& a, const render::Image& b) {
     return differ(a, b, 460, 20, 1260, 480);  // right of the tips
   };
