@@ -138,8 +138,8 @@ say = "Clear the groove."
   EXPECT_LT(shares.all.back(), 1);
 }
 
-// Enter goes on from the own marks. A report that is asked for and not waited for is written all the
-// same, and the start page says so.
+// Enter goes on from the own marks. A full report whose page is closed early is still written, and the
+// start page says where.
 TEST_F(ReviewWindow, EnterGoesOnAndAReportThatIsNotWaitedForIsWritten) {
   const char* set = std::getenv("PATH");
   const std::string path = set != nullptr ? set : "";

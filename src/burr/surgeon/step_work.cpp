@@ -210,8 +210,8 @@ Vec3 StepWork::direction(const Vec3& q, const Vec3& into, people::RandomStream& 
   return along;
 }
 
-// A burr that goes out from here meets nothing that must stay whole. The plan is what is reached from any
-// of the directions to the surgeon, so each place has to be asked.
+// True if a burr that leaves p along `out` meets nothing that must stay whole. The plan holds every place
+// that one of the directions to the surgeon reaches, so a direction is checked anew at each place.
 bool StepWork::is_way_out(const Vec3& p, const Vec3& out, double radius) const {
   for (double s = 0; s < kAway; s += 0.5e-3)
     if (spare_.free.at(p + s * out) < radius - kOutSlack) return false;
@@ -242,7 +242,7 @@ void StepWork::set_way(const volume::Bone& bone, const Vec3& hand, NextStroke& n
     near = in_air(bone, p) && spare_.free.at(p) >= next.burr.radius - kSlack;
   }
   const auto above = [&](const Vec3& p, const Vec3& out) {
-    const Vec3& first = approach_.front();  // along which top_ is told
+    const Vec3& first = approach_.front();  // top_ is the height along it
     return Vec3(p + out * std::max(2e-3, (top_ + kAbove - p.dot(first)) / out.dot(first)));
   };
   // the place that is left may have another way out than the next one

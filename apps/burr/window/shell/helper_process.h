@@ -1,5 +1,5 @@
 // apps/burr/window/shell/helper_process.h - another program beside the window: its error messages are
-// read, and it ends with this object, unless it was let go.
+// read. The program is stopped when this object is destroyed, unless let_go() was called.
 //
 //     HelperProcess child({burr_itself(), "--quiet", "report", ...});
 //     if (!child.began()) ...
@@ -35,7 +35,7 @@ class HelperProcess {
 
   [[nodiscard]] bool began() const { return pid_ > 0; }
   void stop() const;                 // as Ctrl-C does
-  void let_go() { let_go_ = true; }  // it goes on when this object is gone
+  void let_go() { let_go_ = true; }  // the program runs on after this object is destroyed
   [[nodiscard]] bool ended();
   [[nodiscard]] bool fine() const;  // call it after ended()
   // The last line of its messages so far; "": none.
