@@ -236,10 +236,10 @@ TEST(StepWork, ADirectionWithoutRoomIsTriedAgain) {
 // A stone of 1.5 mm hangs 3 mm above a floor. What lies below its rim is reached aslant only: straight up the
 // middle of a burr would pass beside the stone, and its side would cut it.
 struct UnderAStone {
-  UnderAStone(const Vec3& region, const Vec3& size)
+  UnderAStone(const Vec3& region, const Vec3& size, const Vec3& aslant = Vec3(0.8, 0, 0.6))
       : lesson([&] {
           scenario::Lesson made = block_lesson();
-          made.approach = {Vec3::UnitZ(), Vec3(0.8, 0, 0.6)};
+          made.approach = {Vec3::UnitZ(), aslant};
           made.regions.front().add.front().a.at = region;
           made.regions.front().add.front().size = size;
           return made;
@@ -315,6 +315,23 @@ TEST(StepWork, APlaceIsLeftOnItsOwnWayOut) {
   ASSERT_TRUE(next && next->burr == held);
   ASSERT_EQ(next->stroke.points, 3);
   EXPECT_FALSE(on.hits(hand, (next->stroke.way[0] - hand).normalized()));
+}
+
+// A direction to the surgeon at a right angle to the first one does not rise: the way out ends all the same.
+TEST(StepWork, AWayOutAcrossTheFirstDirectionHasAnEnd) {
+  UnderAStone on(Vec3(-7, 0, -3.5) * kMm, Vec3(3, 6, 1.6) * kMm, Vec3::UnitX());
+  people::RandomStream random(1, 3);
+  const Vec3 hand = Vec3(1.6, 0, -2.3) * kMm;
+  HeldBurr held;  // after a change of burrs the way is made anew
+  int ways = 0;
+  for (int n = 0; n < 40; ++n) {
+    const auto next = on.work.next(*on.bone, hand, held, random);
+    if (!next) continue;
+    held = next->burr;
+    for (int w = 0; w < next->stroke.points; ++w, ++ways)
+      EXPECT_LT((next->stroke.way[static_cast<std::size_t>(w)] - hand).norm(), 100 * kMm);
+  }
+  EXPECT_GT(ways, 3);
 }
 
 TEST(StepWork, AGrooveIsCutAlong) {

@@ -243,7 +243,10 @@ void StepWork::set_way(const volume::Bone& bone, const Vec3& hand, NextStroke& n
   }
   const auto above = [&](const Vec3& p, const Vec3& out) {
     const Vec3& first = approach_.front();  // top_ is the height along it
-    return Vec3(p + out * std::max(2e-3, (top_ + kAbove - p.dot(first)) / out.dot(first)));
+    // a direction across the first one never rises above the bone: there the burr goes as far as kAway
+    const double rise = out.dot(first);
+    const double high = rise > 0 ? std::min((top_ + kAbove - p.dot(first)) / rise, kAway) : kAway;
+    return Vec3(p + out * std::max(2e-3, high));
   };
   // the place that is left may have another way out than the next one
   const auto leave = std::find_if(approach_.begin(), approach_.end(), [&](const Vec3& out) {
