@@ -182,6 +182,8 @@ def session(options, name, level, seed, vice):
     seconds = slot_s(options, seed)
     command = [options.burr, "surgeon", options.case, "--level", level, "--seed", str(seed), "--seconds", str(seconds),
                "--least-seconds", str(seconds - 1), "--record", str(recording), "--embed", "--force", "--json", *voxel(options)]
+    if options.bones:
+        command += ["--bone", str(seed)]
     if vice:
         command += ["--vice", f"{vice[0]}={vice[1]}"]
     begun = time.monotonic()
@@ -372,6 +374,7 @@ def main():
     parser.add_argument("--first", type=int, default=FIRST_SEED, help="first seed; below 1000 only to tune")
     parser.add_argument("--seconds", type=float, default=600, help="how long the table is booked for, median; see slot_s()")
     parser.add_argument("--voxel-mm", type=float, default=0, help="default: that of the case")
+    parser.add_argument("--bones", action="store_true", help="each seed on the bone of its number, in place of the bone of the case")
     parser.add_argument("--rubric", default="", help="default: that of the case")
     parser.add_argument("--jobs", type=int, default=1, help="sessions at the same time")
     parser.add_argument("--vices", action="store_true", help="one vice at a time instead of the levels")

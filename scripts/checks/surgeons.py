@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Scripted surgeons on the plain jaw: the careless one does worse than the expert, a recording replays to the bit, and the same seed
-gives the same score to the byte.
+gives the same score to the byte, on every instruction set and with one thread. A case on another bone is recorded, replayed and scored on
+that bone, and a rubric that is another one now is named.
 
     scripts/checks/surgeons.py BURR FOLDER      FOLDER: for the recordings; made if it is not there
 """
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -14,8 +16,9 @@ CASE = pathlib.Path(__file__).resolve().parents[2] / "tests" / "surgeon" / "impl
 RUBRIC = pathlib.Path(__file__).resolve().parents[2] / "tests" / "surgeon" / "jaw_rubric.toml"
 
 
-def run(*command):
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
+def run(*command, simd=None):
+    environment = dict(os.environ) | ({"BURR_SIMD": simd} if simd else {})
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, env=environment)
     if done.returncode:
         sys.exit(f"{' '.join(map(str, command))}: exit code {done.returncode}: {done.stderr.strip()}")
     return done.stdout
@@ -34,6 +37,30 @@ def cleared(score):
     items = {item["id"]: item for item in json.loads(score)["items"]}
     hurt = [name for name, item in items.items() if item["gate"] and item["verdict"] != "met"]
     return items["bed.cleared"]["value"], hurt
+
+
+def other_bone(burr, folder):
+    """What is not as it must be of a session on another bone of the tooth."""
+    wrong, file = [], folder / "other-bone.mcap"
+    run(burr, "surgeon", "tooth", "--bone", 2, "--seed", 1, "--seconds", 20, "--record", file, "--force")
+    run(burr, "replay", file, "--check")
+    if "tooth?graded,bone=2" not in run(burr, "info", file):
+        wrong.append("a session on another bone does not say on which")
+    usual = folder / "usual-bone.mcap"
+    run(burr, "surgeon", "tooth", "--seed", 1, "--seconds", 20, "--record", usual, "--force")
+    hashes = [json.loads(run(burr, "info", one, "--json").splitlines()[-1])["identity"] for one in (file, usual)]
+    if hashes[0]["labels_hash"] == hashes[1]["labels_hash"]:
+        wrong.append("bone 2 has the labels of the usual bone")
+    score = json.loads(run(burr, "score", file, "--json").splitlines()[-1])
+    if score["rubric_changed"] is not False or score["rubric_hash"] != hashes[0]["rubric_hash"]:
+        wrong.append("the rubric of the recording is not that of the score")
+    rubric = folder / "tooth.toml"
+    text = (pathlib.Path(__file__).resolve().parents[2] / "rubrics" / "tooth.toml").read_text()
+    rubric.write_text(text + "\n# another text\n")
+    said = run(burr, "score", file, "--rubric", rubric, "--json")
+    if json.loads(said.splitlines()[-1])["rubric_changed"] is not True or "was another one" not in said:
+        wrong.append("a rubric that was changed after the recording is not named")
+    return wrong
 
 
 def main():
@@ -61,6 +88,16 @@ def main():
     account, score, _ = session(burr, folder, "expert", SEEDS[0], "-again")
     if score != first[1] or account["bone_hash"] != first[0]["bone_hash"]:
         wrong.append("the same seed gave another bone or another score")
+    with open("/proc/cpuinfo") as cpu:
+        known = set(next((line for line in cpu if line.startswith("flags")), "").split())
+    for simd, one_thread in (("scalar", False), ("avx2", True), ("avx512", False)):
+        if simd != "scalar" and not known & {simd, simd + "f"}:
+            print(f"this processor has no {simd}: not compared")
+            continue
+        alone = ["taskset", "-c", min(os.sched_getaffinity(0))] if one_thread else []
+        if run(*alone, burr, "score", first[2], "--rubric", RUBRIC, "--json", simd=simd).splitlines()[-1] != first[1]:
+            wrong.append(f"{simd}{', one thread' if one_thread else ''}: another score")
+    wrong += other_bone(burr, folder)
     for sentence in wrong:
         print("not as it must be: " + sentence)
     return 1 if wrong else 0

@@ -307,6 +307,87 @@ TEST(Phantoms, AVariantThatIsNotThereIsTurnedDownWithWhatThereIs) {
   EXPECT_EQ(default_voxel_mm("jaw?long"), default_voxel_mm("jaw"));
 }
 
+const Landmark& landmark_of(const std::vector<Landmark>& all, const std::string& name) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Landmark& one) { return one.name == name; });
+  EXPECT_NE(found, all.end()) << name;
+  return *found;
+}
+
+// "low-dura=1.5" lowers by that much: a landmark on what moves goes along, and the word without a number
+// is the usual amount.
+TEST(Phantoms, AnAmountMovesByThatMuch) {
+  const auto nerve = [](const std::string& name) {
+    return landmark_of(landmarks(name), "inferior alveolar nerve").points;
+  };
+  const auto usual = nerve("jaw"), some = nerve("jaw?high-nerve=1.5"),
+             all = nerve("jaw?high-nerve");
+  double least = 1, most = 0, whole = 0;
+  for (std::size_t n = 0; n < usual.size(); ++n) {
+    const double by = some[n].z() - usual[n].z();
+    least = std::min(least, by);
+    most = std::max(most, by);
+    whole = std::max(whole, all[n].z() - usual[n].z());
+  }
+  EXPECT_NEAR(most, 1.5e-3, 1e-9);
+  EXPECT_NEAR(whole, 2.5e-3, 1e-9);
+  EXPECT_GE(least, 0);
+  EXPECT_EQ(make("jaw?high-nerve=2.5", 0.5)->content_hash(),
+            make("jaw?high-nerve", 0.5)->content_hash());
+  EXPECT_EQ(make("tooth?graded,shallow=0.8", 0.3)->content_hash(),
+            make("tooth?graded,shallow", 0.3)->content_hash());
+  EXPECT_NE(make("spine?thin-pedicle=1", 1.0)->content_hash(),
+            make("spine?thin-pedicle", 1.0)->content_hash());
+}
+
+// The bone of a number is what drawn_bone() says, the same bits, and no word that was written is drawn over.
+TEST(Phantoms, ANumberDrawsABone) {
+  for (const std::string name : {"temporal-bone", "jaw", "tooth", "spine"}) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(has_bones(name));
+    std::set<std::string> different;
+    for (std::uint32_t number = 1; number <= 200; ++number) {
+      const std::string drawn = drawn_bone(name, number);
+      EXPECT_EQ(drawn, drawn_bone(name + "?bone=3", number));
+      different.insert(drawn);
+      const std::string whole = name + (drawn.empty() ? "" : "?" + drawn);
+      ASSERT_TRUE(known(whole)) << whole;
+      const auto here = landmarks(name + "?bone=" + std::to_string(number));
+      const auto there = landmarks(whole);
+      ASSERT_EQ(here.size(), there.size());
+      for (std::size_t n = 0; n < here.size(); ++n)
+        for (std::size_t p = 0; p < here[n].points.size(); ++p)
+          ASSERT_EQ(here[n].points[p], there[n].points[p]) << here[n].name;
+    }
+    EXPECT_GE(different.size(), 12U);
+  }
+  EXPECT_EQ(make("jaw?bone=7", 0.6)->content_hash(),
+            make("jaw?" + drawn_bone("jaw", 7), 0.6)->content_hash());
+  EXPECT_EQ(make("jaw?bone=7,high-nerve=0.3", 0.6)->content_hash(),
+            make("jaw?high-nerve=0.3", 0.6)->content_hash());
+  EXPECT_FALSE(has_bones("block"));
+  // so that the bone of a recording stays the same for ever
+  EXPECT_EQ(drawn_bone("temporal-bone", 2), "forward-sinus=3,low-dura=1.1");
+  EXPECT_EQ(drawn_bone("tooth", 2), "shallow=0.5,deep=0.4");
+}
+
+TEST(Phantoms, AnAmountOrANumberThatCannotBeIsTurnedDown) {
+  NoProgress nobody;
+  const auto said = [&](const std::string& name) {
+    const auto made = phantom(name, 0.6, nobody);
+    EXPECT_FALSE(made.ok()) << name;
+    return made ? std::string() : made.error().text;
+  };
+  for (const std::string_view one : {"=0", "=-1", "=9", "=", "=x", "=nan", "=1mm", "=1e-400"})
+    EXPECT_NE(said("jaw?high-nerve" + std::string(one)).find("at most 2.5 mm"), std::string::npos)
+        << one;
+  EXPECT_NE(said("jaw?long=2").find("takes no amount"), std::string::npos);
+  for (const std::string_view one : {"", "=", "=0", "=-1", "=1000001", "=4294967297", "=1.5"})
+    EXPECT_NE(said("jaw?bone" + std::string(one)).find("bone=1 to bone=1000000"), std::string::npos)
+        << one;
+  EXPECT_NE(said("block?bone=2").find("has no others"), std::string::npos);
+}
+
 TEST(Phantoms, BadNamesAndVoxelsAreTurnedDownWithWhatThereIs) {
   NoProgress nobody;
   const auto unknown = phantom("elbow", 0.3, nobody);

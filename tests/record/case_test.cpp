@@ -53,6 +53,23 @@ TEST(RecordedCase, HoldsTextHashTargetsAndSpareOfEveryBuiltInCase) {
   }
 }
 
+// The session was on another bone than the text of its case names: landmarks are those of that bone.
+TEST(RecordedCase, IsOnTheBoneOfTheSession) {
+  const auto work = scenario::read_case("tooth");
+  ASSERT_TRUE(work);
+  SessionInfo info = info_with(*work);
+  const auto phantom_of = [&](const std::string& source) {
+    info.volume.recipe.source = source;
+    const auto read = case_of(info);
+    return read ? read->phantom : read.error().text;
+  };
+  EXPECT_EQ(phantom_of("phantom:tooth?graded,bone=2"), "tooth?graded,bone=2");
+  EXPECT_EQ(phantom_of("phantom:tooth?graded"), "tooth?graded");
+  // a volume, or another phantom than that of the case: the text counts
+  EXPECT_EQ(phantom_of(""), "tooth?graded");
+  EXPECT_EQ(phantom_of("phantom:jaw"), "tooth?graded");
+}
+
 TEST(RecordedCase, TheHashIsFnv1aOfTheText) {
   EXPECT_EQ(scenario::text_hash(""), 0xcbf29ce484222325ULL);
   EXPECT_EQ(scenario::text_hash("foobar"), 0x85944171f73967e8ULL);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "burr/base/progress.h"
 #include "commands/work.h"
 
@@ -29,6 +32,42 @@ TEST(Work, ABurrTooSmallForTheVoxelsMakesWayForOneThatFitsAndSaysSo) {
   const std::string& said = ready->import.notices.back();
   for (const char* part : {"5.00 mm", "1.33 mm", "5.4 mm", "--voxel-mm 1.25"})
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
+}
+
+// --bone and the box of the start page: the case on another bone.
+TEST(Work, ACaseIsTakenToAnotherBone) {
+  WorkOptions options;
+  options.volume.source = "jaw";
+  options.bone = 7;
+  ASSERT_TRUE(take_case(options));
+  EXPECT_EQ(options.volume.source, "phantom:jaw?long,defect,bone=7");
+  EXPECT_EQ(options.work_case->phantom, "jaw?long,defect,bone=7");
+
+  std::set<std::string> drawn;
+  for (int n = 0; n < 8; ++n) {
+    WorkOptions other;
+    other.volume.source = "spine";
+    other.other_bones = true;
+    ASSERT_TRUE(take_case(other));
+    EXPECT_TRUE(other.volume.source.starts_with("phantom:spine?bone=")) << other.volume.source;
+    drawn.insert(other.volume.source);
+  }
+  EXPECT_GE(drawn.size(), 7U) << "the same bone again and again";
+
+  // the block has no others: the box leaves it alone, the option is refused
+  WorkOptions block;
+  block.volume.source = "block";
+  block.other_bones = true;
+  ASSERT_TRUE(take_case(block));
+  EXPECT_EQ(block.volume.source, "phantom:block");
+  for (const std::string source : {"block", "phantom:jaw"}) {
+    WorkOptions bad;
+    bad.volume.source = source;
+    bad.bone = 3;
+    const Status taken = take_case(bad);
+    ASSERT_FALSE(taken) << source;
+    EXPECT_NE(taken.error().text.find("leave out --bone"), std::string::npos) << taken.error().text;
+  }
 }
 
 TEST(Work, ABurrThatFitsStaysAsAskedFor) {

@@ -15,13 +15,16 @@
 
 #include "burr/base/new_file.h"
 #include "burr/base/printable.h"
+#include "burr/phantom/phantoms.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scenario/open_lesson.h"
 #include "burr/scoring/step_done.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
+#include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
+#include "commands/bone_option.h"
 #include "commands/case_new.h"
 #include "commands/command.h"
 #include "commands/counted.h"
@@ -35,6 +38,7 @@ namespace {
 
 struct Options {
   std::string name;
+  std::uint32_t bone = 0;
   std::vector<std::string> accepted;
   scenario::Recipe volume;
   bool json = false;
@@ -66,8 +70,9 @@ nlohmann::json json_of(const workshop::LabelFinding& one) {
 }
 
 Status run_check(const Options& options) {
-  const auto work = scenario::read_case(options.name);
+  auto work = scenario::read_case(options.name);
   if (!work) return work.error();
+  if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken;
   const std::string file = work->name + ".toml";
   auto read = scenario::lesson_of(*work);
   if (!read) return read.error();
@@ -81,6 +86,10 @@ Status run_check(const Options& options) {
   const auto findings = workshop::check_labels(*lesson, *made->bone, options.accepted, progress());
   if (!findings) return findings.error();
   fmt::print("{}: {}\n", file, base::printable(work->title));
+  if (options.bone > 0) {
+    const std::string drawn = phantom::drawn_bone(work->phantom, options.bone);
+    fmt::print("  bone {}: {}\n", options.bone, drawn.empty() ? "as usual" : drawn);
+  }
   fmt::print("  format {}: {}, {}, {}, {}, {}\n", lesson->format,
              counted(lesson->structures.size(), "structure"),
              counted(lesson->regions.size(), "region"),
@@ -184,6 +193,7 @@ void add(CLI::App& app, Todo& todo) {
   check->add_option("--accept-label", options->accepted,
                     "go on in spite of the faults of this structure's label; may be repeated");
   add_volume_options(*check, options->volume);
+  add_bone_option(*check, options->bone);
   check->add_flag("--json", options->json, "print a JSON object as the last line");
   check->callback([options, &todo] { todo.work = [options] { return run_check(*options); }; });
 

@@ -202,9 +202,11 @@ Status run_recording(const Options& options) {
                                  : ", cut off");
   fmt::print("  bone of {} x {} x {} voxels of {:.5g} mm, {}in the file\n", size.x(), size.y(),
              size.z(), 1e3 * info.volume.grid.voxel, info.embedded ? "" : "not ");
+  const std::string phantom = scenario::phantom_name(info.volume.recipe.source);
+  if (!phantom.empty()) fmt::print("  the bone is the phantom {}\n", base::printable(phantom));
   std::optional<scenario::Case> work_case;
   if (info.work_case) {
-    auto read = record::case_of(*info.work_case);
+    auto read = record::case_of(info);
     if (!read) return read.error();
     work_case = std::move(*read);
     fmt::print("case {}: {}", base::printable(work_case->name), scenario::task_text(*work_case));
@@ -212,13 +214,15 @@ Status run_recording(const Options& options) {
   fmt::print("{}", session_text(player));
   for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", notice);
   if (!options.json) return fine();
-  nlohmann::json out = {{"burr_version", info.burr_version},
-                        {"seconds", player.seconds()},
-                        {"rate_hz", info.rate_hz},
-                        {"finished", player.finished()},
-                        {"embedded", info.embedded},
-                        {"notices", player.notices()},
-                        {"case", nullptr}};
+  nlohmann::json out = {
+      {"burr_version", info.burr_version},
+      {"seconds", player.seconds()},
+      {"rate_hz", info.rate_hz},
+      {"finished", player.finished()},
+      {"embedded", info.embedded},
+      {"phantom", phantom.empty() ? nlohmann::json(nullptr) : nlohmann::json(phantom)},
+      {"notices", player.notices()},
+      {"case", nullptr}};
   out.update(session_json(player));
   if (work_case) {
     nlohmann::json targets = nlohmann::json::array();

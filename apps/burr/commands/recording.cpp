@@ -11,8 +11,10 @@
 #include "burr/record/course.h"
 #include "burr/record/rename_and_sync.h"
 #include "burr/record/scan_list.h"
+#include "burr/scoring/rubric.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
+#include "report/questions.h"
 
 namespace burr::app {
 
@@ -21,8 +23,11 @@ Status Recording::start(sim::Session& session, const std::string& file,
                         const std::string& motion, bool embed,
                         const std::optional<workshop::Tissues>& spared,
                         const std::optional<scenario::Case>& work_case) {
-  const workshop::About about{volume, import.format, motion,    embed,
-                              spared, work_case,     identity_, scan_list_};
+  record::Identity who = identity_;
+  if (const std::string rubric = work_case ? rubric_of(*work_case) : ""; !rubric.empty())
+    if (const auto read = scoring::read_rubric(rubric)) who.rubric_hash = read->text_hash;
+  const workshop::About about{volume, import.format, motion, embed,
+                              spared, work_case,     who,    scan_list_};
   file_ = file;
   rate_hz_ = session.settings().servo.rate_hz;
   auto begun =

@@ -70,8 +70,7 @@ ViewOptions view_of(const Options& options, const record::Player& player) {
   ViewOptions view = options.view;
   const record::SessionInfo& info = player.info();
   if (info.work_case) {
-    if (const auto work = record::case_of(*info.work_case))
-      view.opening = workshop::opening_of(*work);
+    if (const auto work = record::case_of(info)) view.opening = workshop::opening_of(*work);
   } else {
     view.opening = workshop::opening_of_phantom(info.volume.recipe.source);
   }

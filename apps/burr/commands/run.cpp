@@ -24,6 +24,7 @@
 #include "burr/workshop/spared.h"
 #include "burr/workshop/tool_looks.h"
 #include "burr/workshop/work_view.h"
+#include "commands/bone_option.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
 #include "commands/identity_options.h"
@@ -390,6 +391,7 @@ void add(CLI::App& app, Todo& todo) {
                    "can watch and record it (ROS 2)")
       ->excludes("--headless");
   add_identity_options(*command, options->work.identity);
+  add_bone_option(*command, options->work.bone);
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

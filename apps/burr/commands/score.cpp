@@ -11,13 +11,16 @@
 
 #include "burr/base/printable.h"
 #include "burr/record/player.h"
+#include "burr/record/session_info.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scoring/reference.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"
 #include "burr/workshop/open_bone.h"
+#include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
+#include "commands/bone_option.h"
 #include "commands/command.h"
 #include "commands/json_line.h"
 #include "commands/score_words.h"
@@ -32,6 +35,7 @@ constexpr const char* kDefaults =
 
 struct Options {
   std::string source, rubric, explain, work_case;
+  std::uint32_t bone = 0;
   scenario::Recipe volume;
   bool json = false;
 };
@@ -53,6 +57,13 @@ std::string ids_of(const scoring::Rubric& rubric) {
   for (const scoring::Item& one : rubric.items)
     list += (list.empty() ? "" : ", ") + base::printable(one.id);
   return list;
+}
+
+// Is the rubric another one than that of the recording? None: the recording does not say.
+std::optional<bool> rubric_changed(const record::Player& player, const scoring::Rubric& rubric) {
+  const auto& who = player.info().identity;
+  if (!who || who->rubric_hash == 0) return std::nullopt;
+  return who->rubric_hash != rubric.text_hash;
 }
 
 Status run_score(const Options& options) {
@@ -84,8 +95,19 @@ Status run_score(const Options& options) {
     fmt::print("{}: {}; {:.0f} % of the bone that the case says to remove is gone\n",
                score.unfinished ? "unfinished" : "finished", score.ending, 100 * score.worked);
   }
+  const auto changed = rubric_changed(player, rubric);
+  if (changed.value_or(false))
+    fmt::print(
+        "note: when this session was recorded, the rubric of its case was another one; the marks "
+        "are those of the rubric as it is now\n");
   fmt::print("{}\n", kDefaults);
-  if (options.json) fmt::print("{}\n", json_line(score_json(rubric, score)));
+  if (options.json) {
+    nlohmann::ordered_json out = score_json(rubric, score);
+    out["rubric_hash"] = record::hex(rubric.text_hash);
+    out["rubric_changed"] =
+        changed ? nlohmann::ordered_json(*changed) : nlohmann::ordered_json(nullptr);
+    fmt::print("{}\n", json_line(out));
+  }
   return fine();
 }
 
@@ -134,9 +156,10 @@ Status check_reference(const Options& options, const scoring::Rubric& rubric,
 Status run_check(const Options& options) {
   const auto rubric = scoring::read_rubric(options.rubric);
   if (!rubric) return rubric.error();
-  const auto work =
+  auto work =
       scenario::read_case(options.work_case.empty() ? rubric->case_source : options.work_case);
   if (!work) return work.error();
+  if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken;
   const auto lesson = lesson_for(*work, *rubric);
   if (!lesson) return lesson.error();
   const auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
@@ -190,6 +213,7 @@ void add_rubric(CLI::App& app, Todo& todo) {
   check->add_option("rubric", options->rubric, "a built-in rubric, or a .toml file")->required();
   check->add_option("--case", options->work_case,
                     "the case, built in or a .toml file (default: the one that the rubric names)");
+  add_bone_option(*check, options->bone);
   add_volume_options(*check, options->volume);
   check->callback([options, &todo] { todo.work = [options] { return run_check(*options); }; });
 }

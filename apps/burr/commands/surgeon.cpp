@@ -21,8 +21,10 @@
 #include "burr/tick/flag_words.h"
 #include "burr/tool/state.h"
 #include "burr/workshop/label_check.h"
+#include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
+#include "commands/bone_option.h"
 #include "commands/command.h"
 #include "commands/interrupt.h"
 #include "commands/json_line.h"
@@ -40,6 +42,7 @@ constexpr double kFieldOfView = 0.2;  // of the recorded view, as through a micr
 
 struct Options {
   std::string work_case, level = "expert", record;
+  std::uint32_t bone = 0;
   std::vector<std::string> vices;
   scenario::Recipe volume;
   std::uint64_t seed = 1;
@@ -182,8 +185,9 @@ Status run(const Options& options) {
   if (!possible) return possible;
   const auto skill = skill_of(options);
   if (!skill) return skill.error();
-  const auto work = scenario::read_case(options.work_case);
+  auto work = scenario::read_case(options.work_case);
   if (!work) return work.error();
+  if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken;
   auto read = scenario::lesson_of(*work);
   if (!read) return read.error();
   const auto lesson =
@@ -231,6 +235,7 @@ void add(CLI::App& app, Todo& todo) {
       ->add_option("--seed", options->seed,
                    "the same seed gives the same session; 1 to 99 to try out, from 1000 to compare")
       ->capture_default_str();
+  add_bone_option(*command, options->bone);
   command->add_option("--vice", options->vices,
                       fmt::format("NAME=VALUE, several times: sets one number of the level: {}",
                                   fmt::join(surgeon::vice_names(), ", ")));

@@ -1,4 +1,7 @@
 #include "commands/work.h"
+#include "burr/base/printable.h"
+#include "burr/phantom/phantoms.h"
+#include "burr/workshop/other_bone.h"
 #include "report/scored.h"
 
 #include <fmt/core.h>
@@ -7,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <random>
 #include <system_error>
 #include <utility>
 
@@ -39,11 +43,20 @@ Status take_case(WorkOptions& options) {
   scenario::Recipe& volume = options.volume;
   if (volume.source.empty()) volume.source = "temporal-bone";
   if (names_a_case(volume.source)) {
-    const auto read = scenario::read_case(volume.source);
+    auto read = scenario::read_case(volume.source);
     if (!read) return read.error();
+    if (options.other_bones && options.bone == 0 && workshop::has_other_bones(*read))
+      options.bone = std::random_device{}() % phantom::kMostBones + 1;
+    if (const Status taken = workshop::take_bone(*read, options.bone); !taken) return taken;
     if (!read->rubric.empty())
       if (const Status fits = rubric_fits(*read); !fits) return fits;
     take_case(options, *read);
+  } else if (options.bone > 0) {
+    return error(
+        Trouble::usage,
+        fmt::format("--bone {}: only a case has other bones; name a case in place of \"{}\", "
+                    "or leave out --bone",
+                    options.bone, base::printable(volume.source)));
   }
   if (options.burr_mm == 0) options.burr_mm = 5;
   if (options.rpm == 0) options.rpm = 40'000;

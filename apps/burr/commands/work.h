@@ -36,6 +36,8 @@ struct WorkOptions {
   std::string suction;          // in the window: a device for the other hand; empty: none
   std::string told_as;          // in the window: name of the published CRTK arm; empty: none
   ToolOptions tool;             // of the rack
+  std::uint32_t bone = 0;       // another bone of the case (workshop/other_bone.h); 0: its own
+  bool other_bones = false;     // each session draws the number, where the case has other bones
   haptics::Method touch = haptics::Method::constraint;
   record::Identity identity;  // mode, learner and attempt, for the recording
   // only from a case

@@ -15,8 +15,7 @@ namespace {
 
 // The case of the recording; without one, the case of the rubric.
 Result<scenario::Case> case_of(const record::Player& player, const std::string& rubric) {
-  const auto& info = player.info().work_case;
-  if (info) return record::case_of(*info);
+  if (player.info().work_case) return record::case_of(player.info());
   if (rubric.empty())
     return error(Trouble::usage, "the recording names no case; name a rubric with --rubric");
   const auto read = scoring::read_rubric(rubric);

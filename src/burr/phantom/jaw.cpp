@@ -39,7 +39,7 @@ constexpr double kFront = -39 * kMm, kBack = 22 * kMm;       // ends of the piec
 constexpr double kMouthNear = 1 * kMm, kMouthFar = 4 * kMm;  // its floor, from the bone
 constexpr double kKerf = 3 * kMm;
 constexpr double kLean = 8 * M_PI / 180;
-constexpr double kRaised = 2.5 * kMm;  // of a high nerve
+constexpr double kRaised = 2.5;  // of a high nerve [mm]
 
 // The defect is a part of a ball about a point outside the bone: 8 mm wide and 2.5 mm deep.
 constexpr double kDefectRadius = 4.45 * kMm, kDefectDepth = 2.5 * kMm;
@@ -52,7 +52,7 @@ class Jaw {
   explicit Jaw(const Variant& variant)
       : long_(variant.has("long")),
         defect_(variant.has("defect")),
-        nerve_(nerve_curve(variant.has("high-nerve") ? kRaised : 0.0), 5 * kMm) {}
+        nerve_(nerve_curve(variant.mm("high-nerve", kRaised) * kMm), 5 * kMm) {}
 
   struct Parts {
     double hull = 0, marrow = 0, tooth = 0, enamel = 0, pulp = 0, nerve = 0;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -32,21 +34,21 @@ Phantom round_ball(double, const Variant&) {
 }
 
 constexpr std::array<VariantWord, 5> kTemporalBoneVariants = {
-    {{"forward-sinus", "the descending sigmoid sinus lies 4 mm farther forward"},
-     {"low-dura", "the dura over the mastoid lies 4 mm lower"},
-     {"dehiscent", "no bone over 3 mm of the facial nerve's tympanic part"},
+    {{"forward-sinus", "the descending sigmoid sinus lies 4 mm farther forward", 4, 0.7, 4},
+     {"low-dura", "the dura over the mastoid lies 4 mm lower", 4, 0.7, 2},
+     {"dehiscent", "no bone over 3 mm of the facial nerve's tympanic part", 0, 0.25},
      {"sclerotic", "dense bone in place of the mastoid cells"},
      {"ridge-dura", "the dura covers the ridge of the pyramid too, without gaps"}}};
 constexpr std::array<VariantWord, 1> kSpineVariants = {
-    {{"thin-pedicle", "the pedicles are 2.4 mm narrower and lower"}}};
+    {{"thin-pedicle", "the pedicles are 2.4 mm narrower and lower", 2.4, 1, 2.4}}};
 constexpr std::array<VariantWord, 3> kJawVariants = {
     {{"long", "longer in front, for an osteotomy: toothless to the front, floor of the mouth"},
-     {"high-nerve", "the nerve lies 2.5 mm nearer to the ridge"},
+     {"high-nerve", "the nerve lies 2.5 mm nearer to the ridge", 2.5, 1, 1.5},
      {"defect", "a round defect 2.5 mm deep in the cheek side, below the nerve"}}};
 constexpr std::array<VariantWord, 3> kToothVariants = {
     {{"graded", "caries in three grades, and a second, smaller one in front of it"},
-     {"shallow", "the caries ends 0.8 mm higher"},
-     {"deep", "the caries ends 0.4 mm lower"}}};
+     {"shallow", "the caries ends 0.8 mm higher", 0.8, 0.5, 0.8},
+     {"deep", "the caries ends 0.4 mm lower", 0.4, 0.5, 0.4}}};
 
 struct Known {
   std::string_view name;
@@ -76,6 +78,102 @@ std::string list_of_names() {
   return list;
 }
 
+// A fair number in [0, 1) from a bone's number and the n-th draw for it, the same on every computer
+// (SplitMix64: Steele, Lea, Flood 2014).
+double drawn(std::uint32_t number, std::uint64_t n) {
+  std::uint64_t z = (std::uint64_t{number} << 32U | n) * 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
+  return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
+}
+
+struct Word {
+  std::string_view word;
+  std::optional<double> mm;
+};
+std::vector<Word> words_of_bone(const Known& known, std::uint32_t number) {
+  std::vector<Word> words;
+  for (std::size_t n = 0; n < known.variants.size(); ++n) {
+    const VariantWord& one = known.variants[n];
+    // both draws are made for every word, so that one more word changes none of the others
+    const bool there = drawn(number, 2 * n) < one.chance;
+    const double tenths = std::floor(drawn(number, 2 * n + 1) * 10 * one.drawn_mm) + 1;
+    if (!there) continue;
+    words.push_back({one.word, std::nullopt});
+    if (one.drawn_mm > 0) words.back().mm = tenths / 10;  // as "1.3" reads
+  }
+  return words;
+}
+
+constexpr std::string_view kBone = "bone";
+
+// Of "high-nerve=1.5": "1.5".
+std::optional<std::string_view> after_equals(std::string_view word) {
+  const std::size_t at = word.find('=');
+  return at == std::string_view::npos ? std::nullopt : std::optional(word.substr(at + 1));
+}
+
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+  Number value{};
+  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (trouble != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string text_of(double mm) {
+  std::string text = std::to_string(mm);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+std::string in_mm(double mm) { return text_of(mm) + " mm"; }
+
+// "high-nerve", "high-nerve=1.5" or "bone=7" of this phantom, put into the variant.
+Status take_word(const Known& known, std::string_view word, Variant& variant) {
+  const std::string phantom = "the phantom " + std::string(known.name);
+  const std::string_view name = word.substr(0, word.find('='));
+  const auto amount = after_equals(word);
+  if (name == kBone) {
+    if (!has_bones(known.name))
+      return error(Trouble::usage, phantom + " is one bone and has no others; leave out '" +
+                                       std::string(word) + "'");
+    const auto number = number_in<std::uint32_t>(amount.value_or(""));
+    if (!number || *number < 1 || *number > kMostBones)
+      return error(Trouble::usage, "'" + std::string(word) +
+                                       "' is not the number of a bone; use bone=1 to bone=" +
+                                       std::to_string(kMostBones));
+    for (const Word& one : words_of_bone(known, *number))
+      if (!variant.has(one.word)) variant.add(std::string(one.word), one.mm);
+    return fine();
+  }
+  std::string list;
+  const VariantWord* found = nullptr;
+  for (const VariantWord& one : known.variants) {
+    list += (list.empty() ? "" : ", ") + std::string(one.word);
+    if (one.word == name) found = &one;
+  }
+  if (found == nullptr)
+    return error(Trouble::usage, phantom + " has no variant '" + std::string(name) + "'; " +
+                                     (list.empty() ? "it has none, so leave out what follows the ?"
+                                                   : "use one or more of " + list));
+  if (!amount) {
+    if (!variant.has(name)) variant.add(std::string(name), std::nullopt);
+    return fine();
+  }
+  if (found->most_mm == 0)
+    return error(Trouble::usage, "the variant '" + std::string(name) + "' of " + phantom +
+                                     " takes no amount; leave out '=" + std::string(*amount) + "'");
+  const auto mm = number_in<double>(*amount);
+  if (!mm || !(*mm > 0 && *mm <= found->most_mm))
+    return error(Trouble::usage, "'" + std::string(word) +
+                                     "': the amount of this variant is above 0 and at most " +
+                                     in_mm(found->most_mm) + ", in millimetres; write " +
+                                     std::string(name) + "=" + text_of(found->most_mm));
+  if (!variant.has(name)) variant.add(std::string(name), mm);
+  return fine();
+}
+
 // "jaw?long,high-nerve"
 struct Wanted {
   const Known* known = nullptr;
@@ -96,29 +194,16 @@ Result<Wanted> wanted(std::string_view text) {
     if (comma == std::string_view::npos) break;
     rest.remove_prefix(comma + 1);
   }
-  std::string list;
-  for (const VariantWord& one : out.known->variants)
-    list += (list.empty() ? "" : ", ") + std::string(one.word);
+  // a number draws last: what is written has precedence
+  std::stable_partition(words.begin(), words.end(),
+                        [](const std::string& word) { return !word.starts_with(kBone); });
   for (const std::string& word : words)
-    if (std::none_of(out.known->variants.begin(), out.known->variants.end(),
-                     [&](const VariantWord& one) { return one.word == word; }))
-      return error(Trouble::usage,
-                   "the phantom " + std::string(name) + " has no variant '" + word + "'; " +
-                       (list.empty() ? "it has none, so leave out what follows the ?"
-                                     : "use one or more of " + list));
-  out.variant = Variant(std::move(words));
+    if (const Status taken = take_word(*out.known, word, out.variant); !taken) return taken.error();
   return out;
 }
 
 // more would not fit into the memory of a common computer; fewer show nothing
 constexpr double kMostVoxels = 1.2e9, kFewestAlong = 16;
-
-std::string in_mm(double mm) {
-  std::string text = std::to_string(mm);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text + " mm";
-}
 
 }  // namespace
 
@@ -131,6 +216,23 @@ std::vector<std::string_view> phantom_names() {
 std::span<const VariantWord> variants_of(std::string_view name) {
   const Known* known = find(name);
   return known == nullptr ? std::span<const VariantWord>() : known->variants;
+}
+
+bool has_bones(std::string_view name) {
+  const std::span<const VariantWord> words = variants_of(name.substr(0, name.find('?')));
+  return std::any_of(words.begin(), words.end(),
+                     [](const VariantWord& one) { return one.chance > 0; });
+}
+
+std::string drawn_bone(std::string_view name, std::uint32_t number) {
+  const Known* known = find(name.substr(0, name.find('?')));
+  std::string out;
+  if (known == nullptr) return out;
+  for (const Word& one : words_of_bone(*known, number)) {
+    out += (out.empty() ? "" : ",") + std::string(one.word);
+    if (one.mm) out += "=" + text_of(*one.mm);
+  }
+  return out;
 }
 
 Status known(std::string_view name) {

@@ -48,7 +48,7 @@ std::vector<Landmark> landmarks_of_spine() {
 
 class Vertebra {
  public:
-  explicit Vertebra(const Variant& variant) : thinner_(variant.has("thin-pedicle") ? 1.2 : 0.0) {}
+  explicit Vertebra(const Variant& variant) : thinner_(0.5 * variant.mm("thin-pedicle", 2.4)) {}
 
   struct Parts {
     double hull = 0, marrow = 0, sac = 0, roots = 0;

@@ -167,8 +167,8 @@ class TemporalBone {
  public:
   TemporalBone(double voxel, const Variant& variant)
       : ramp_(volume::kRamp * voxel),
-        forward_(variant.has("forward-sinus") ? 4 * kMm : 0.0),
-        lower_(variant.has("low-dura") ? 4 * kMm : 0.0),
+        forward_(variant.mm("forward-sinus", 4) * kMm),
+        lower_(variant.mm("low-dura", 4) * kMm),
         dehiscent_(variant.has("dehiscent")),
         sclerotic_(variant.has("sclerotic")),
         ridge_dura_(variant.has("ridge-dura")) {}

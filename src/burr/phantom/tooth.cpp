@@ -26,7 +26,7 @@ struct Lesion {
 
 // The lesions of a variant; the first is the one of the fissure.
 std::vector<Lesion> lesions_of(const Variant& variant) {
-  const double lower = (variant.has("deep") ? 0.4 : 0.0) - (variant.has("shallow") ? 0.8 : 0.0);
+  const double lower = variant.mm("deep", 0.4) - variant.mm("shallow", 0.8);
   if (!variant.has("graded"))
     return {{at_mm(-0.1, 0.6, 6.6), at_mm(0, 0.2, 4.6 - lower), 1.0 * kMm, 1.5 * kMm}};
   // farther back than the plain one, so that sound tooth stands between it and the pit in front

@@ -272,6 +272,17 @@ Result<scenario::Case> case_of(const CaseInfo& info) {
   return scenario::parse_case(info.text, info.name + ".toml");
 }
 
+Result<scenario::Case> case_of(const SessionInfo& info) {
+  auto read = case_of(*info.work_case);
+  if (!read) return read.error();
+  const auto plain = [](const std::string& phantom) {
+    return phantom.substr(0, phantom.find('?'));
+  };
+  const std::string was = scenario::phantom_name(info.volume.recipe.source);
+  if (!read->phantom.empty() && plain(was) == plain(read->phantom)) read->phantom = was;
+  return read;
+}
+
 bool CaseInfo::unchanged() const {
   if (text_hash != scenario::text_hash(text)) return false;
   const auto read = case_of(*this);

@@ -55,6 +55,10 @@ struct CaseInfo {
 [[nodiscard]] CaseInfo case_info(const scenario::Case& work);
 // The case as it was opened; its volume is scenario::kOwnFile where it named one.
 [[nodiscard]] Result<scenario::Case> case_of(const CaseInfo& info);
+struct SessionInfo;
+// The case on the bone of the session, which may be another one than the text names (--bone). Only
+// where the session has a case.
+[[nodiscard]] Result<scenario::Case> case_of(const SessionInfo& info);
 
 struct SessionInfo {
   std::string burr_version;  // filled in by the Recorder

@@ -207,8 +207,9 @@ Result<Ready> continue_session(const KeptSession& kept, Progress& progress) {
   if (!player) return player.error();
   // the case comes from the recording, because its file may have changed or be gone; only its
   // volume is known by the file
-  const std::optional<record::CaseInfo>& recorded = (*player)->info().work_case;
-  Result<scenario::Case> work_case = recorded ? record::case_of(*recorded) : error("no case");
+  const record::SessionInfo& recorded = (*player)->info();
+  Result<scenario::Case> work_case =
+      recorded.work_case ? record::case_of(recorded) : error("no case");
   if (work_case && work_case->volume.empty()) {
     take_case(options, *work_case);
   } else {

@@ -143,6 +143,7 @@ void StartPage::open(std::string path) {
   WorkOptions options;
   options.volume.source = cleaned_path(std::move(path));
   options.identity = identity_;
+  options.other_bones = other_bone_;
   // a scan of one's own has no steps that these two could be about; an exam stays one
   const bool guided =
       identity_.mode == record::Mode::learn || identity_.mode == record::Mode::practise;
@@ -178,6 +179,7 @@ void StartPage::draw() {
   ui.write(x, top + 96 * u, Letter::strong, ink::kAccent, word(Word::start_cases));
   modes(x + 256 * u, top + 88 * u);
   cards(x, top + 124 * u);
+  other_bone(x + 526 * u, top + 330 * u, 226 * u);
   draw_message(x, top + 528 * u, 752 * u);
   draw_told(x, top + 622 * u, 752 * u);
 
@@ -248,6 +250,18 @@ void StartPage::modes(float x, float y) {
     if (identity_.mode == one.mode)
       ui.write(x + 90 * u, y - 16 * u, Letter::small, ink::kDim, word(one.told));
   }
+}
+
+void StartPage::other_bone(float x, float y, float w) {
+  const Ui& ui = desk_.ui();
+  ImGui::SetCursorScreenPos({x, y});
+  ImGui::Checkbox(word(Word::bone_other), &other_bone_);
+  ImGui::SetCursorScreenPos({x, y + 34 * ui.unit()});
+  ImGui::PushTextWrapPos(x + w);
+  ImGui::PushStyleColor(ImGuiCol_Text, ink::kDim);
+  ImGui::TextUnformatted(word(Word::bone_told_other));
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
 }
 
 void StartPage::own_scan(float x, float y, float w) {

@@ -46,6 +46,7 @@ class StartPage {
   void sessions(float x, float& y, float w);
   void recents(float x, float& y, float w);
   void modes(float x, float y);
+  void other_bone(float x, float y, float w);
   void draw_message(float x, float y, float w);
   void draw_told(float x, float y, float w);
   void play(const KeptSession& kept);
@@ -59,6 +60,7 @@ class StartPage {
   FileDialog dialog_;
   HandChoice hand_;
   record::Identity identity_;
+  bool other_bone_ = false;  // each session of a case is on another bone
   std::vector<KeptSession> kept_;
   std::vector<Recent> recent_;
   std::vector<std::string> dropped_;
