@@ -1,5 +1,6 @@
 // Made recordings with known forces, distances, times and burrs.
 #include "burr/metrics/process.h"
+#include "burr/metrics/speed_near.h"
 
 #include <gtest/gtest.h>
 
@@ -130,6 +131,42 @@ TEST_F(ProcessTest, ForceByDistance) {
       1.2, [&](double t) { return story(t + 0.8); }, settings_);
   ASSERT_TRUE(brief.force && brief.force->by_distance);
   EXPECT_FALSE(brief.force->by_distance->restraint);
+}
+
+// Round the nerve: at 20 mm/s 6 mm away, then at 5 mm/s 1.5 mm away, cutting; then at 40 mm/s without.
+TEST_F(ProcessTest, SpeedByDistance) {
+  const auto story = [](double t) {
+    Happening now;
+    now.touching = true;
+    // nothing is cut while the hand changes place, which takes no time here
+    now.removal = t < 1.7 || (t > 2.3 && t < 3.7) ? 1e-9 : 0;
+    const double radius = (t < 2 ? 9 : 4.5) * kMm;
+    const double way = (t < 2 ? 20 * t : t < 4 ? 5 * (t - 2) : 10 + 40 * (t - 4)) * kMm;
+    now.place = radius * Vec3(std::cos(way / radius), std::sin(way / radius), 0);
+    return now;
+  };
+  const auto speed = speed_near(test::process(4.5, story, settings_).track);
+  ASSERT_TRUE(speed) << speed.reason();
+  EXPECT_NEAR(speed->time[3], 1.7, 0.03);
+  EXPECT_NEAR(speed->time[1], 1.4, 0.03);
+  EXPECT_EQ(speed->time[0], 0);
+  EXPECT_FALSE(speed->bin_mean[0]);
+  ASSERT_TRUE(speed->bin_mean[3] && speed->bin_mean[1]);
+  EXPECT_NEAR(*speed->bin_mean[3], 20e-3, 0.3e-3);
+  EXPECT_NEAR(*speed->bin_mean[1], 5e-3, 0.3e-3);
+  ASSERT_TRUE(speed->ratio);
+  EXPECT_NEAR(*speed->ratio, 0.25, 0.02);
+  // only near: no ratio
+  const auto near = speed_near(test::process(
+                                   2, [&](double t) { return story(t + 2); }, settings_)
+                                   .track);
+  ASSERT_TRUE(near);
+  EXPECT_NEAR(*near->bin_mean[1], 5e-3, 3e-4);
+  EXPECT_FALSE(near->ratio);
+  const auto never = speed_near(test::process(
+                                    0.4, [&](double t) { return story(t + 4); }, settings_)
+                                    .track);
+  EXPECT_FALSE(never);
 }
 
 // Q9: a diamond of 1 mm near, a cutting burr of 3 mm far away, and a cutting one of 3 mm near for a

@@ -322,6 +322,8 @@ std::vector<TextPair> figures_of(const Scored& scored) {
       economy.per_path ? text("{:.0f} mm³", 1e9 * *economy.per_path) : "");
   row(Word::figure_outside, economy.outside_share.ok(),
       economy.outside_share ? text("{:.0f} %", 100 * *economy.outside_share) : "");
+  const bool slower = f.speed && f.speed->ratio;
+  row(Word::figure_speed, slower, slower ? text("{:.2f}", *f.speed->ratio) : "");
   row(Word::figure_shaft, f.shaft.ok(), f.shaft ? text("{:.1f} s", f.shaft->seconds) : "");
   row(Word::figure_dwell, f.dwell.ok(), f.dwell ? text("{:.1f} s", f.dwell->longest) : "");
   row(Word::figure_slowed, f.motor.ok(),

@@ -122,6 +122,7 @@ Figures figures_of(const metrics::Process& process, Scene& scene, const record::
   out.strokes = metrics::figures_of(process.strokes);
   out.economy = metrics::economy_of(process.track, process.paths.all, process.strokes.size(),
                                     regions.empty() ? metrics::Region() : scene.regions(regions));
+  out.speed = metrics::speed_near(process.track);
   out.shaft = process.shaft;
   out.dwell = process.dwell;
   out.motor = process.motor;

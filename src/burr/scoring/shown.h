@@ -13,6 +13,7 @@
 
 #include "burr/metrics/dwell.h"
 #include "burr/metrics/economy.h"
+#include "burr/metrics/speed_near.h"
 #include "burr/metrics/measured.h"
 #include "burr/metrics/motor_load.h"
 #include "burr/metrics/near.h"
@@ -41,6 +42,7 @@ struct Figures {
   metrics::Paths paths;
   metrics::Assessed<metrics::StrokeFigures> strokes = metrics::NotAssessable{"not measured"};
   metrics::Economy economy;
+  metrics::Assessed<metrics::SpeedNear> speed = metrics::NotAssessable{"not measured"};
   metrics::Assessed<metrics::ShaftRest> shaft = metrics::NotAssessable{"not measured"};
   metrics::Assessed<metrics::Dwell> dwell = metrics::NotAssessable{"not measured"};
   metrics::Assessed<metrics::MotorLoad> motor = metrics::NotAssessable{"not measured"};
