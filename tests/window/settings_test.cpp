@@ -46,6 +46,7 @@ TEST_F(SettingsFile, ComesBackAsItWasWrittenWithEveryValueChanged) {
   s.pedal_tool = 5;
   s.pedal_clutch = 5;
   s.pedal_rest = 1;
+  s.shaft_touches = true;
   s.effects = false;
   s.stereo = render::Stereo::interleaved;
   s.stereo_depth = 0.5;

@@ -67,6 +67,7 @@ const std::vector<Box>& boxes() {
         Word::set_left_handed,
         Word::set_force,
         Word::set_press,
+        Word::set_shaft,
         Word::set_turn,
         Word::set_zoom,
         Word::set_effects,

@@ -286,6 +286,7 @@ Result<Closed> mill_into_folder(Desk& desk, Ready& ready, const Options& options
 Result<Closed> session_in_window(Desk& desk, const Options& options) {
   WorkOptions work = options.work;
   if (const Status taken = take_case(work); !taken) return taken.error();
+  if (desk.settings.shaft_touches) work.touch = haptics::Method::shaft;
   if (work.work_case) fmt::print(stderr, "{}", scenario::task_text(*work.work_case));
   bool closed = false;
   auto loaded = load<Ready>(

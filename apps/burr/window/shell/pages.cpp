@@ -234,6 +234,7 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
       choice->open->hand = start.hand();
       choice->open->suction = options.led.suction;
       choice->open->told_as = options.led.told_as;
+      if (desk.settings.shaft_touches) choice->open->touch = haptics::Method::shaft;
       if (choice->go_on) choice->go_on->options = *choice->open;
       do {
         left = work_on(desk, *choice, options, trouble);

@@ -112,6 +112,7 @@ void main_leaf(Lines& left, Lines& right, Settings& settings) {
   left.yes(Word::set_autosave, "autosave", settings.autosave);
   left.number(Word::set_kept, "sessions_kept", settings.sessions_kept, "%.0f");
   left.number(Word::set_mb, "sessions_mb", settings.sessions_mb, "%.0f MB");
+  left.yes(Word::set_shaft, "shaft_touches", settings.shaft_touches);
   left.heading(Word::set_privacy);
   left.yes(Word::set_recent_names, "recent_names", settings.recent_names);
   left.yes(Word::set_remember_scans, "remember_scans", settings.remember_scans);
