@@ -77,7 +77,7 @@ inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
   row.contact.touching = random() % 2 == 0;
   row.contact.flags = static_cast<std::uint32_t>(random());
   row.ledger = {any(random), any(random), any(random), any(random),
-                any(random), any(random), any(random)};
+                any(random), any(random), any(random), any(random)};
   row.spindle_rad_s = any(random);
   row.cutting_nm = any(random);
   row.cutting_w = any(random);
@@ -127,7 +127,7 @@ inline void expect_same(const tick::TickRow& a, const tick::TickRow& b) {
   EXPECT_TRUE(same(a.ledger.asked, b.ledger.asked) && same(a.ledger.removed, b.ledger.removed) &&
               same(a.ledger.debt, b.ledger.debt) && same(a.ledger.not_cut, b.ledger.not_cut) &&
               same(a.ledger.added, b.ledger.added) && same(a.ledger.energy, b.ledger.energy) &&
-              same(a.ledger.undone, b.ledger.undone))
+              same(a.ledger.undone, b.ledger.undone) && same(a.ledger.moved, b.ledger.moved))
       << a.tick;
   EXPECT_TRUE(same(a.spindle_rad_s, b.spindle_rad_s)) << a.tick;
   EXPECT_TRUE(same(a.cutting_nm, b.cutting_nm) && same(a.cutting_w, b.cutting_w)) << a.tick;

@@ -110,6 +110,33 @@ TEST(Recorder, TheSessionIsDescribedToTheBit) {
   EXPECT_FALSE(info.build.empty());
 }
 
+TEST(Recorder, AMoveOfAPieceComesBackToTheBit) {
+  tick::CommandRow row;
+  row.tick = 77;
+  row.command.kind = tick::CommandKind::move_piece;
+  row.command.value = 3;
+  row.command.move = {3,
+                      {5, -6, 700},
+                      {0.1, -1e-17, 1.0 / 3},
+                      {0.6, 0, 1e-300, 0.8},
+                      0xfedcba9876543210ULL,
+                      0x0123456789abcdefULL};
+  tick::CommandRow back;
+  ASSERT_TRUE(command_from_json(to_json(row), back)) << to_json(row);
+  EXPECT_EQ(back.tick, row.tick);
+  EXPECT_EQ(back.command.kind, row.command.kind);
+  EXPECT_EQ(back.command.move, row.command.move);
+  for (
+      const char* broken :
+      {R"({"tick":1,"kind":"move_piece","value":0})",
+       R"({"tick":1,"kind":"move_piece","value":-1,"piece":{"seed":[1,2,3],"by_m":[0,0,0],"turn_xyzw":[0,0,0,1],"writes":1,"bricks":"0x1"}})",
+       R"({"tick":1,"kind":"move_piece","value":0,"piece":{"seed":[1,2],"by_m":[0,0,0],"turn_xyzw":[0,0,0,1],"writes":1,"bricks":"0x1"}})",
+       R"({"tick":1,"kind":"move_piece","value":0,"piece":{"seed":[1,2,9e9],"by_m":[0,0,0],"turn_xyzw":[0,0,0,1],"writes":1,"bricks":"0x1"}})",
+       R"({"tick":1,"kind":"move_piece","value":0,"piece":{"seed":[1,2,3],"by_m":[0,0,0],"turn_xyzw":[0,0,0,1],"writes":-1,"bricks":"0x1"}})",
+       R"({"tick":1,"kind":"move_piece","value":0,"piece":{"seed":[1,2,3],"by_m":[0,0,0],"turn_xyzw":[0,0,0,1],"writes":1,"bricks":"0xyz"}})"})
+    EXPECT_FALSE(command_from_json(broken, back)) << broken;
+}
+
 TEST(Recorder, EveryFieldOfATickHasAColumn) {
   // a member of the structs without a column would be lost silently: the sizes must add up
   tick::TickRow row;

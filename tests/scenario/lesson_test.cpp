@@ -9,6 +9,7 @@
 
 #include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -204,6 +205,39 @@ TEST(Lesson, ALandmarkThatNobodyHasIsNamedWithItsLine) {
   const auto shown = place(*parse_lesson(show, "my.toml"), {}, "my.toml");
   ASSERT_FALSE(shown);
   EXPECT_NE(shown.error().text.find("\"moon\""), std::string::npos);
+}
+
+TEST(Lesson, APieceIsPlannedFromALandmark) {
+  const std::string text = std::string(kGood) +
+                           "[[piece]]\ntitle.en = \"chin\"\ntitle.sv = \"haka\"\nnear = \"entry\"\n"
+                           "by_mm = [0, -5, 0]\nturn_deg = [0, 0, 90]\n";
+  const auto read = parse_lesson(text, "my.toml");
+  ASSERT_TRUE(read) << read.error().text;
+  const auto placed = place(*read, {}, "my.toml");
+  ASSERT_TRUE(placed) << placed.error().text;
+  ASSERT_EQ(placed->pieces.size(), 1U);
+  const PlannedPiece& piece = placed->pieces[0];
+  EXPECT_EQ(piece.title.in("sv"), "haka");
+  EXPECT_LT((piece.near.at - math::Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-15);
+  EXPECT_LT((piece.by - math::Vec3(0, -5e-3, 0)).norm(), 1e-15);
+  EXPECT_NEAR(piece.turn.z(), 1.5707963267948966, 1e-12);
+  const auto lost = place(
+      *parse_lesson(with(text, "near = \"entry\"", "near = \"moon\""), "my.toml"), {}, "my.toml");
+  ASSERT_FALSE(lost);
+  EXPECT_NE(lost.error().text.find("near: there is no landmark \"moon\""), std::string::npos)
+      << lost.error().text;
+  for (const auto& [from, to, says] :
+       {std::tuple{"by_mm = [0, -5, 0]\nturn_deg = [0, 0, 90]", "", "or both"},
+        std::tuple{"by_mm = [0, -5, 0]", "by_mm = [0, -5]", "three numbers"},
+        std::tuple{"by_mm = [0, -5, 0]", "by_mm = [0, -5000, 0]", "200 mm"},
+        std::tuple{"turn_deg = [0, 0, 90]", "turn_deg = [0, 0, 270]", "180 degrees"},
+        std::tuple{"near = \"entry\"\n", "", "landmark's name"},
+        std::tuple{"by_mm", "by", "not a known field"}}) {
+    const auto wrong = parse_lesson(with(text, from, to), "my.toml");
+    ASSERT_FALSE(wrong) << from;
+    EXPECT_NE(wrong.error().text.find(says), std::string::npos) << wrong.error().text;
+    EXPECT_NE(wrong.error().text.find("piece[1]"), std::string::npos) << wrong.error().text;
+  }
 }
 
 TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {

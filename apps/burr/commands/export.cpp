@@ -9,6 +9,7 @@
 
 #include "burr/io/export_part.h"
 #include "burr/record/player.h"
+#include "burr/sim/move_pieces.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
@@ -41,6 +42,7 @@ struct Options {
 
 struct Bones {
   std::unique_ptr<volume::Bone> before, now;  // now empty: the same as before
+  edit::PieceStore moved;                     // for --part pieces
 };
 
 // A copy with room for deposits.
@@ -89,6 +91,14 @@ Result<Bones> open_recording(const Options& options) {
   const double at_s = options.at_s < 0 ? (*player)->seconds() : options.at_s;
   const Status there = (*player)->bone_at(at_s, *bones.now);
   if (!there) return there.error();
+  if (options.part == "pieces") {
+    const auto scratch = copy_of(*bones.before, (*player)->info().volume.recipe.reserve_bricks);
+    auto again = record::Player::open(options.source);  // it goes through the moments by itself
+    if (!again) return again.error();
+    auto moved = sim::moved_in(**again, *scratch, at_s);
+    if (!moved) return moved.error();
+    bones.moved = std::move(*moved);
+  }
   for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
   return bones;
 }
@@ -138,7 +148,8 @@ Status run(const Options& options) {
   const volume::Bone& before = *bones->before;
   const volume::Bone& now = bones->now ? *bones->now : before;
   if (options.part == "pieces")
-    return export_pieces(now, options.out, options.what(), options.force, options.json, progress());
+    return export_pieces(now, options.out, options.what(), options.force, options.json, progress(),
+                         bones->moved);
   const auto exported = io::export_part(before, now, options.out, options.what(), progress());
   if (!exported) return exported.error();
 

@@ -12,6 +12,7 @@
 #include "burr/importing/materials.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
+#include "burr/sim/move_pieces.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "burr/surgeon/path_check.h"
@@ -25,6 +26,7 @@
 #include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/picture_size.h"
+#include "commands/piece_words.h"
 #include "commands/recording.h"
 #include "commands/tool_options.h"
 #include "commands/volume_words.h"
@@ -41,6 +43,7 @@ struct Options {
                                                       removal = "energy", mirror;
   ToolOptions tool;
   std::vector<double> at_mm, into;
+  std::vector<std::string> move_pieces;
   double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
   std::size_t undo_bricks = tick::ServoSettings{}.undo_bricks;
   edit::RemovalSettings removing;
@@ -155,8 +158,35 @@ nlohmann::json heat_json(const sim::Session& session, const thermal::HeatSummary
           {"tissues", tissues}};
 }
 
+// One after the other, while the hand rests where the motion ended.
+Status move_pieces(const std::vector<sim::PieceOrder>& orders, sim::Session& session,
+                   edit::PieceStore& store) {
+  for (const sim::PieceOrder& order : orders) {
+    const auto moved = sim::move_piece(session, store, order, progress());
+    if (!moved) return moved.error();
+  }
+  return fine();
+}
+
+// The hand stays where the path ends, with the spindle off.
+void rest_at_end(device::HandPath& path) {
+  constexpr double kAtOnce = 1e-3, kLong = 24 * 3600;  // [s]
+  device::PathPoint last = path.points.back();
+  last.pedal = 0;
+  for (const double wait : {kAtOnce, kLong}) {
+    last.t = path.points.back().t + wait;
+    path.points.push_back(last);
+  }
+}
+
+struct Told {
+  const std::vector<std::string>& doubts;
+  nlohmann::ordered_json pieces;  // that were moved
+};
+
 void print(const Options& options, sim::Session& session, const Recording& recording,
-           const std::vector<std::string>& doubts) {
+           const Told& told) {
+  const std::vector<std::string>& doubts = told.doubts;
   const sim::Outcome outcome = session.outcome();
   const rt::TickSummary& t = outcome.timing;
   thermal::HeatSummary heat;
@@ -176,6 +206,7 @@ void print(const Options& options, sim::Session& session, const Recording& recor
       fmt::print("put off at times because this machine is too slow: {}\n",
                  tick::name(outcome.most_shed));
     if (options.heat) print_heat(session, heat, outcome.heat_rows_lost);
+    for (const std::string& line : pieces_text(told.pieces)) fmt::print("{}\n", line);
     for (const std::string& doubt : doubts) fmt::print("noted: {}\n", doubt);
     for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
       fmt::print("noted: {}\n", sentence);
@@ -189,6 +220,10 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   out["asked_mm3"] = 1e9 * outcome.ledger.asked;
   out["not_cut_mm3"] = 1e9 * outcome.ledger.not_cut;
   out["owed_mm3"] = 1e9 * outcome.ledger.debt;
+  if (!options.move_pieces.empty()) {
+    out["moved_loss_mm3"] = 1e9 * outcome.ledger.moved;
+    out["pieces"] = told.pieces;
+  }
   out["peak_force_N"] = outcome.peak_force;
   out["mean_force_N"] = outcome.mean_force;
   out["tick_us"] = {{"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}};
@@ -218,6 +253,12 @@ Status run(const Options& options) {
     return error(Trouble::usage,
                  fmt::format("give either --path FILE.csv or --motion NAME (one of {})",
                              fmt::join(surgeon::motion_names(), ", ")));
+  std::vector<sim::PieceOrder> orders;
+  for (const std::string& text : options.move_pieces) {
+    auto order = piece_order(text);
+    if (!order) return order.error();
+    orders.push_back(*order);
+  }
   const Status possible = check_outputs(
       {options.volume.source, options.volume.labels, options.volume.materials, options.path_csv},
       {{"--record", options.record, {".mcap"}}, {"--picture", options.picture, {".png"}}},
@@ -235,6 +276,8 @@ Status run(const Options& options) {
   if (!options.path_csv.empty())
     doubts = surgeon::doubts(*path, *opened->bone, 0.5e-3 * options.burr_mm, options.path_csv);
   for (const std::string& doubt : doubts) fmt::print(stderr, "{}\n", doubt);
+
+  if (!orders.empty()) rest_at_end(*path);
 
   sim::SessionSettings settings;
   settings.realtime = options.realtime;
@@ -283,12 +326,15 @@ Status run(const Options& options) {
     if (!started) return started;
   }
   session.run(seconds, progress());
+  edit::PieceStore store;
+  const Status put = interrupted() ? fine() : move_pieces(orders, session, store);
   const Status recorded = options.record.empty() ? fine() : recording.finish(session);
   if (!options.picture.empty()) {
     Status drawn = draw(options, place, session);
     if (!drawn) return drawn;
   }
-  print(options, session, recording, doubts);
+  print(options, session, recording, {doubts, pieces_json(store, session.bone())});
+  if (!put) return put;
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
   return fine();
@@ -393,6 +439,11 @@ void add(CLI::App& app, Todo& todo) {
                       "sagittal, coronal or axial[,MM]: everything done on one side of a plane is "
                       "also done on the other; the plane goes through the middle of the volume, or "
                       "MM to the left of, behind or above it");
+  command->add_option(
+      "--move-piece", options->move_pieces,
+      "X,Y,Z:DX,DY,DZ[:AX,AY,AZ]: after the motion, move the free piece nearest to "
+      "X,Y,Z by DX,DY,DZ [mm, LPS], and turn it about its centre by as many degrees "
+      "as AX,AY,AZ is long, about that axis; may be given more than once");
   command->add_flag("--guard", options->guarded,
                     "energy guard: the hand never gets back more energy than it gave");
   command->add_flag("--heat", options->heat,

@@ -17,6 +17,7 @@ struct Account {
   double asked = 0, debt = 0, not_cut = 0;          // [units]
   std::int64_t removed = 0, added = 0;              // [units]
   std::int64_t undone = 0;                          // [units]
+  std::int64_t moved = 0;                           // [units]
   std::int64_t image_removed = 0, image_added = 0;  // of these, at the mirror's image
   double energy = 0;                                // [J]
 
@@ -41,6 +42,7 @@ struct Account {
     ledger.not_cut = not_cut * unit_m3;
     ledger.added = static_cast<double>(added) * unit_m3;
     ledger.undone = static_cast<double>(undone) * unit_m3;
+    ledger.moved = static_cast<double>(moved) * unit_m3;
     ledger.energy = energy;
     return ledger;
   }

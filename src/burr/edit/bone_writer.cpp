@@ -57,12 +57,14 @@ void BoneWriter::write_applied(BrickIndex brick, const BrickField& now,
 
 void BoneWriter::write_less(BrickIndex brick, const BrickField& now, const Applied& applied,
                             std::uint32_t& flags) BURR_RT {
+  const Count count(*this);
   if (undo_.keep(brick)) flags |= rt::kFlagUndoFull;
   write_applied(brick, now, applied);
 }
 
 void BoneWriter::write_more(BrickIndex brick, const BrickField& now, const Applied& applied,
                             volume::TissueId material, std::uint32_t& flags) BURR_RT {
+  const Count count(*this);
   if (undo_.keep(brick)) flags |= rt::kFlagUndoFull;
   const volume::Field* field = bone_.brick_field(brick);
   const math::Ijk first = bone_.brick_ijk(brick);
@@ -94,6 +96,7 @@ void BoneWriter::note_whole(BrickIndex brick, const BrickField& before,
 }
 
 void BoneWriter::restore(const KeptBrick& kept) BURR_RT {
+  const Count count(*this);
   if (bone_.ensure_slot(kept.brick) == volume::kNoSlot)
     return;  // cannot happen: the brick had a slot when it was kept
   BrickField before;
@@ -125,6 +128,12 @@ void BoneWriter::rewrite(const KeptBrick& now, std::uint32_t& flags) BURR_RT {
   }
   account_.removed += gone;
   account_.asked += static_cast<double>(gone);
+  restore(now);
+}
+
+void BoneWriter::put(const KeptBrick& now, std::uint32_t& flags) BURR_RT {
+  if (!make_room(now.brick, flags)) return;
+  if (undo_.keep(now.brick)) flags |= rt::kFlagUndoFull;
   restore(now);
 }
 

@@ -11,6 +11,7 @@
 // at construction, none afterwards.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -49,6 +50,16 @@ class BoneWriter {
   [[nodiscard]] const Account& account() const BURR_RT { return account_; }
   [[nodiscard]] Ledger ledger() const BURR_RT { return account_.ledger(unit_m3_); }
 
+  // How often a brick was written since the start. A copy of the bone that another thread made
+  // between two equal readings, begun() after it and done() before it, is the bone after so many
+  // writes.
+  [[nodiscard]] std::uint64_t writes_begun() const BURR_RT {
+    return begun_.load(std::memory_order_acquire);
+  }
+  [[nodiscard]] std::uint64_t writes_done() const BURR_RT {
+    return done_.load(std::memory_order_acquire);
+  }
+
   // Makes room for material in a brick of air. False, and kFlagReserve: there is none left.
   [[nodiscard]] bool make_room(volume::BrickIndex brick, std::uint32_t& flags) BURR_RT;
 
@@ -63,6 +74,9 @@ class BoneWriter {
   // in the account; the removed volume is added to `asked`, too. Adds kFlagReserve and
   // kFlagUndoFull.
   void rewrite(const KeptBrick& now, std::uint32_t& flags) BURR_RT;
+  // Puts this content into a brick, with the old one kept for undo. Not in the account. Adds
+  // kFlagReserve and kFlagUndoFull.
+  void put(const KeptBrick& now, std::uint32_t& flags) BURR_RT;
   // Swaps a brick of the bone with a kept one (undo, redo). Not in the account.
   void swap(KeptBrick& kept) BURR_RT;
   // Puts a kept brick back (reset). Not in the account.
@@ -79,10 +93,30 @@ class BoneWriter {
   void note_whole(volume::BrickIndex brick, const volume::BrickField& before,
                   const volume::BrickField& now) BURR_RT;
 
+  // Counts a write while it lasts.
+  class Count {
+   public:
+    explicit Count(BoneWriter& writer) BURR_RT : writer_(writer) {
+      writer_.begun_.store(writer_.begun_.load(std::memory_order_relaxed) + 1,
+                           std::memory_order_relaxed);
+      std::atomic_thread_fence(std::memory_order_release);
+    }
+    ~Count() BURR_RT {
+      writer_.done_.store(writer_.begun_.load(std::memory_order_relaxed),
+                          std::memory_order_release);
+    }
+    Count(const Count&) = delete;
+    Count& operator=(const Count&) = delete;
+
+   private:
+    BoneWriter& writer_;
+  };
+
   volume::Bone& bone_;
   volume::IsoVertices& surface_;
   UndoStore& undo_;
   ChangedQueue* changed_;
+  std::atomic<std::uint64_t> begun_ = 0, done_ = 0;
   std::vector<std::uint16_t> highest_;  // (brick_count) largest field value of the brick
   std::vector<std::uint8_t> uniform_;   // (brick_count) its one solid tissue, or kMixed
   double unit_m3_;

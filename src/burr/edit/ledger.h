@@ -1,7 +1,7 @@
 // edit/ledger.h - the account of removed volume: what was asked for, removed and still owed.
 //
 //     asked = removed + debt + not_cut          at every tick, up to rounding of a double
-//     removed - undone                          what is missing from the bone now, apart from `added`
+//     removed - undone + moved                  what is missing from the bone now, apart from `added`
 //
 // Volumes are those of volume/volume_of.h.  [m^3]
 #pragma once
@@ -16,6 +16,9 @@ struct Ledger {
   double added = 0;    // deposited
   double energy = 0;   // spent on cutting  [J]
   double undone = 0;   // of `removed`: brought back by undo and reset, and not redone
+  // Lost where pieces were moved; below 0: gained. Resampling changes a little, and where a piece
+  // overlaps other bone, that volume is there only once. Undo takes it back.
+  double moved = 0;
 };
 
 }  // namespace burr::edit

@@ -50,17 +50,18 @@ void UndoStore::begin_stroke(std::uint64_t path_mark, std::int64_t removed) BURR
   if (newest_ > done_) next_entry_ = stroke(done_).first;  // what could have been redone is gone
   newest_ = done_ + 1;
   if (newest_ - oldest_ > strokes_.size()) ++oldest_;
-  stroke(done_) = {next_entry_, 0, path_mark, removed, 0};
+  stroke(done_) = {next_entry_, 0, path_mark, removed, 0, 0};
   ++done_;
   ++serial_;
   open_ = true;
   overflowed_ = false;
 }
 
-void UndoStore::end_stroke(std::int64_t removed) BURR_RT {
+void UndoStore::end_stroke(std::int64_t removed, std::int64_t moved) BURR_RT {
   if (open_) {
     Stroke& now = stroke(done_ - 1);
     now.removed = removed - now.removed_before;
+    now.moved = moved;
   }
   open_ = false;
 }
@@ -98,13 +99,13 @@ bool UndoStore::keep(BrickIndex brick) BURR_RT {
 UndoStore::Range UndoStore::undo() BURR_RT {
   BURR_CHECK(can_undo());
   const Stroke& s = stroke(--done_);
-  return {s.first, s.count, s.path_mark, s.removed};
+  return {s.first, s.count, s.path_mark, s.removed, s.moved};
 }
 
 UndoStore::Range UndoStore::redo() BURR_RT {
   BURR_CHECK(can_redo());
   const Stroke& s = stroke(done_++);
-  return {s.first, s.count, s.path_mark, s.removed};
+  return {s.first, s.count, s.path_mark, s.removed, s.moved};
 }
 
 const KeptBrick* UndoStore::original_of(BrickIndex brick) const BURR_RT {

@@ -38,17 +38,22 @@ class UndoStore {
   // ---- while cutting
   // Drops the strokes that could be redone. removed: of the account, now [units]
   void begin_stroke(std::uint64_t path_mark, std::int64_t removed = 0) BURR_RT;
-  void end_stroke(std::int64_t removed = 0) BURR_RT;
+  // moved: lost by a piece that this stroke moved [units]
+  void end_stroke(std::int64_t removed = 0, std::int64_t moved = 0) BURR_RT;
   [[nodiscard]] bool stroke_open() const BURR_RT { return open_; }
   // Call before a brick is written. True: an older stroke was dropped, or this stroke itself is too
   // large.
   bool keep(volume::BrickIndex brick) BURR_RT;
+
+  // Bricks that all remembered strokes may touch together.
+  [[nodiscard]] std::size_t room() const BURR_RT { return entries_.size(); }
 
   // ---- undo and redo: entries of the stroke, which the caller must swap
   struct Range {
     std::uint64_t first = 0, count = 0;  // entry numbers; entry(i) for i in [first, first + count)
     std::uint64_t path_mark = 0;
     std::int64_t removed = 0;  // by the stroke [units]
+    std::int64_t moved = 0;    // lost by the piece that it moved [units]
   };
   [[nodiscard]] bool can_undo() const BURR_RT { return !open_ && done_ > oldest_; }
   [[nodiscard]] bool can_redo() const BURR_RT { return !open_ && done_ < newest_; }
@@ -75,7 +80,7 @@ class UndoStore {
  private:
   struct Stroke {
     std::uint64_t first = 0, count = 0, path_mark = 0;
-    std::int64_t removed_before = 0, removed = 0;  // [units]
+    std::int64_t removed_before = 0, removed = 0, moved = 0;  // [units]
   };
   static void copy(const volume::Bone& bone, volume::BrickIndex brick, KeptBrick& to) BURR_RT;
   [[nodiscard]] Stroke& stroke(std::uint64_t number) BURR_RT {

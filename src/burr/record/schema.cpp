@@ -1,12 +1,17 @@
 #include "burr/record/schema.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <type_traits>
 
 #include "burr/record/course.h"
 #include "burr/record/mcap/crc32.h"
+#include "burr/record/session_info.h"
 #include "burr/record/view.h"
 
 namespace burr::record {
@@ -210,6 +215,12 @@ const TickColumn kTickColumns[] = {
     {{51, "undone_m3", Type::f64,
       "of the removed volume: brought back by undo and reset, and not redone [m^3]"},
      BURR_AT(ledger.undone)},
+    {{70, "moved_m3", Type::f64,
+      "lost where pieces were moved, below 0 gained: resampled, and overlap with other bone; undo "
+      "takes it back; absent: 0 [m^3]"},
+     BURR_AT(ledger.moved),
+     false,
+     true},
     {{35, "spindle_rad_per_s", Type::f64, "speed of the burr now [rad/s]"}, BURR_AT(spindle_rad_s)},
     {{39, "cutting_torque_nm", Type::f64, "torque of the bone on the burr [N m]"},
      BURR_AT(cutting_nm)},
@@ -456,8 +467,15 @@ constexpr const char* kCommandSchema = R"({
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
-  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind", "tool"]},
-  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty, 7 shaft; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; burr_kind 0 cutting, 1 diamond; tool number in tools, -1 the round burr; \"nan\", \"inf\", \"-inf\" as strings"}
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind", "tool", "move_piece"]},
+  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty, 7 shaft; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; burr_kind 0 cutting, 1 diamond; tool number in tools, -1 the round burr; move_piece number of the piece, 0 the first that was moved; \"nan\", \"inf\", \"-inf\" as strings"},
+  "piece": {"type": "object", "description": "of move_piece", "properties": {
+   "seed": {"type": "array", "items": {"type": "integer"}, "description": "a voxel of the piece where it came free"},
+   "by_m": {"type": "array", "items": {"type": "number"}, "description": "from where it came free, not from where it lay: after a turn about its centre, LPS [m]"},
+   "turn_xyzw": {"type": "array", "items": {"type": "number"}, "description": "the turn, a unit quaternion"},
+   "writes": {"type": "integer", "description": "how often the bone had been written when the move was prepared; another number: refused"},
+   "bricks": {"type": "string", "description": "hexadecimal, hash of the bricks after the move"}
+  }}
  }
 })";
 
@@ -517,6 +535,8 @@ const char* command_name(tick::CommandKind kind) {
       return "burr_kind";
     case tick::CommandKind::tool:
       return "tool";
+    case tick::CommandKind::move_piece:
+      return "move_piece";
   }
   return "";
 }
@@ -619,8 +639,53 @@ std::string to_json(const tick::CommandRow& row) {
       {"tick", row.tick}, {"kind", command_name(row.command.kind)}, {"value", row.command.value}};
   if (std::isnan(row.command.value)) object["value"] = "nan";
   if (std::isinf(row.command.value)) object["value"] = row.command.value > 0 ? "inf" : "-inf";
+  if (row.command.kind == tick::CommandKind::move_piece) {
+    const edit::PieceMove& move = row.command.move;
+    object["piece"] = {{"seed", move.seed},
+                       {"by_m", move.by},
+                       {"turn_xyzw", move.turn},
+                       {"writes", move.writes},
+                       {"bricks", hex(move.bricks)}};
+  }
   return object.dump();
 }
+
+namespace {
+
+template <class T, std::size_t N>
+bool numbers_from(const json& object, const char* name, std::array<T, N>& to) {
+  const auto found = object.find(name);
+  if (found == object.end() || !found->is_array() || found->size() != N) return false;
+  constexpr double kMost = std::is_integral_v<T> ? 2147483647.0 : 1e300;
+  for (std::size_t n = 0; n < N; ++n) {
+    const json& one = (*found)[n];
+    if (!one.is_number() || !(std::abs(one.get<double>()) <= kMost)) return false;
+    to[n] = one.get<T>();
+  }
+  return true;
+}
+
+bool move_from_json(const json& object, double number, edit::PieceMove& move) {
+  constexpr double kMostPieces = 65536;
+  const auto piece = object.find("piece");
+  if (piece == object.end() || !piece->is_object() || !(number >= 0 && number < kMostPieces))
+    return false;
+  const auto writes = piece->find("writes"), bricks = piece->find("bricks");
+  if (writes == piece->end() || !writes->is_number_unsigned() || bricks == piece->end() ||
+      !bricks->is_string())
+    return false;
+  const std::string text = bricks->get<std::string>();
+  if (text.size() < 3 || text.compare(0, 2, "0x") != 0) return false;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + 2, end, move.bricks, 16);
+  if (read.ec != std::errc() || read.ptr != end) return false;
+  move.piece = static_cast<std::uint32_t>(number);
+  move.writes = writes->get<std::uint64_t>();
+  return numbers_from(*piece, "seed", move.seed) && numbers_from(*piece, "by_m", move.by) &&
+         numbers_from(*piece, "turn_xyzw", move.turn);
+}
+
+}  // namespace
 
 bool command_from_json(std::string_view text, tick::CommandRow& row) {
   const json object = json::parse(text, nullptr, false);
@@ -647,7 +712,9 @@ bool command_from_json(std::string_view text, tick::CommandRow& row) {
     if (name.empty()) break;
     if (*kind == name) {
       row.command.kind = known;
-      return true;
+      row.command.move = {};
+      return known != tick::CommandKind::move_piece ||
+             move_from_json(object, row.command.value, row.command.move);
     }
   }
   return false;

@@ -48,10 +48,10 @@ void read_work(Reader& reader, Case& out) {
 }
 
 void read_all(Reader& reader, Case& out) {
-  reader.only({"format",   "title",     "description", "phantom",   "volume", "voxel_mm",
-               "rubric",   "approach",  "work",        "burr",      "demo",   "spare",
-               "target",   "landmark",  "region",      "structure", "step",   "complication",
-               "feedback", "reference", "tool"});
+  reader.only({"format", "title",    "description", "phantom",   "volume", "voxel_mm",
+               "rubric", "approach", "work",        "burr",      "demo",   "spare",
+               "target", "landmark", "region",      "structure", "step",   "complication",
+               "piece",  "feedback", "reference",   "tool"});
   Texts title, description;
   read_texts(reader, "title", title, true);
   read_texts(reader, "description", description);

@@ -29,6 +29,14 @@ class Placer {
           put(shape, shape.b);
           if (shape.kind == ShapeKind::tube) put_curve(shape);
         }
+    for (PlannedPiece& piece : lesson_.pieces) {
+      if (piece.near.landmark.empty()) continue;
+      if (const Landmark* found = lesson_.landmark(piece.near.landmark); found != nullptr)
+        piece.near.at = found->points.front();
+      else
+        fail(piece.line, fmt::format("near: there is no landmark \"{}\"",
+                                     base::printable(piece.near.landmark)));
+    }
     for (const Step& step : lesson_.steps)
       for (const std::string& name : step.show)
         if (lesson_.structure(name) == nullptr && lesson_.region(name) == nullptr &&

@@ -155,6 +155,16 @@ struct Reference {
   std::vector<std::pair<std::string, double>> leave;  // structure, thickness [m]
 };
 
+// A [[piece]]: the piece of bone at `near`, once it has come free, is to be moved so: a turn about its
+// centre, then a shift.
+struct PlannedPiece {
+  Texts title = {};                      // as people read it; empty: none
+  Place near;                            // a point in the piece
+  math::Vec3 by = math::Vec3::Zero();    // [m]
+  math::Vec3 turn = math::Vec3::Zero();  // rotation vector [rad]
+  std::uint32_t line = 0;
+};
+
 struct Lesson {
   int format = 1;
   Texts title, description;
@@ -164,6 +174,7 @@ struct Lesson {
   std::vector<Structure> structures;
   std::vector<Step> steps;
   std::vector<Complication> complications;
+  std::vector<PlannedPiece> pieces;
   Feedback feedback;
   std::optional<Reference> reference;
 

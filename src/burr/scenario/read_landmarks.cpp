@@ -1,5 +1,6 @@
 // [[landmark]] and [[region]] of a case.
 #include <cmath>
+#include <numbers>
 
 #include "burr/scenario/read_lesson.h"
 #include "burr/scenario/read_texts.h"
@@ -120,7 +121,33 @@ void read_shape(Reader& reader, Shape& out) {
   }
 }
 
+// Where the case wants a piece.
+void read_piece(Reader& reader, PlannedPiece& out) {
+  constexpr double kFarthest = 200, kRound = 180;  // [mm], [degrees]
+  reader.only({"title", "near", "by_mm", "turn_deg"});
+  out.line = reader.line();
+  read_texts(reader, "title", out.title);
+  read_place(reader, "near", out.near);
+  std::optional<math::Vec3> by, turn;
+  reader.vector("by_mm", by);
+  reader.vector("turn_deg", turn);
+  if (!by && !turn)
+    return reader.fail("by_mm",
+                       "is missing; give by_mm = [x, y, z], turn_deg = [x, y, z], or both");
+  if (by && !(by->norm() <= kFarthest))
+    return reader.fail("by_mm", "must not be longer than 200 mm");
+  if (turn && !(turn->norm() <= kRound))
+    return reader.fail("turn_deg",
+                       "is an axis as long as the angle, and must not be longer than 180 degrees");
+  if (by) out.by = *by * kMm;
+  if (turn) out.turn = *turn * (std::numbers::pi / kRound);
+}
+
 }  // namespace
+
+void read_pieces(Reader& reader, Lesson& out) {
+  reader.each("piece", [&](Reader& inner) { read_piece(inner, out.pieces.emplace_back()); });
+}
 
 void read_landmarks(Reader& reader, Lesson& out) {
   reader.each("landmark",

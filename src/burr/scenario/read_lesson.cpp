@@ -170,7 +170,7 @@ void read_format(Reader& reader, Lesson& out) {
   out.format = static_cast<int>(std::min(format, kNewest));
   if (out.format == 2) return;
   for (const char* key : {"approach", "landmark", "region", "structure", "step", "complication",
-                          "feedback", "reference"})
+                          "piece", "feedback", "reference"})
     if (reader.has(key))
       return reader.fail(key, "belongs to format 2; add the line format = 2 at the top");
 }
@@ -197,6 +197,7 @@ void read_lesson(Reader& reader, Lesson& out) {
     inner.text("structure", one.structure);
     read_texts(inner, "say", one.say, true);
   });
+  read_pieces(reader, out);
   reader.table("feedback", [&](Reader& inner) { read_feedback(inner, out.feedback); });
   reader.table("reference", [&](Reader& inner) { read_reference(inner, out.reference.emplace()); });
   check_names(reader, out);

@@ -15,6 +15,7 @@ void read_lesson(Reader& reader, Lesson& out);
 // read_landmarks.cpp: [[landmark]] and [[region]]
 void read_landmarks(Reader& reader, Lesson& out);
 void read_regions(Reader& reader, Lesson& out);
+void read_pieces(Reader& reader, Lesson& out);
 
 // check_lesson.cpp: names that are given twice, and names that nothing has
 void check_names(Reader& reader, const Lesson& lesson);

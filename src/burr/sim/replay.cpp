@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <optional>
+#include <utility>
 
 #include "burr/device/replayed_hand.h"
 #include "burr/rt/flags.h"
@@ -29,6 +31,19 @@ std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
   return "another hash, from an earlier part of the tick or the ledger";
 }
 
+// The bricks of a move, made again. What the servo of the recording refused it refuses now.
+std::optional<edit::PieceStore::Prepared> lay_ready(const edit::PieceStore& pieces,
+                                                    const volume::Bone& bone,
+                                                    const edit::PieceMove& move,
+                                                    tick::Servo& servo) {
+  if (servo.writes_done() != move.writes) return std::nullopt;
+  auto made = pieces.prepare(bone, move);
+  if (!made) return std::nullopt;
+  std::optional<edit::PieceStore::Prepared> ready = std::move(*made);
+  if (!servo.lay_ready(*ready->bricks)) return std::nullopt;
+  return ready;
+}
+
 }  // namespace
 
 Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bone> bone,
@@ -40,6 +55,8 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
   tick::Servo servo(*bone, surface, hand, recorded->settings.servo);
 
   ReplayOutcome outcome;
+  edit::PieceStore& pieces = outcome.pieces;
+  std::optional<edit::PieceStore::Prepared> under_way;  // lives until the servo has written it
   record::StepCursor steps = player.steps();
   record::BrickCursor bricks = player.bricks();
   record::Step step;
@@ -53,10 +70,19 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
           step.row.tick);
       break;
     }
-    for (const tick::Command& command : step.commands) servo.commands().push(command);
+    std::optional<edit::PieceStore::Prepared> moving;
+    for (const tick::Command& command : step.commands) {
+      if (command.kind == tick::CommandKind::move_piece && !moving)
+        moving = lay_ready(pieces, *bone, command.move, servo);
+      servo.commands().push(command);
+    }
     hand.set(step.row.hand);
     const tick::TickRow& row = servo.tick((step.row.contact.flags & rt::kFlagWatchdog) != 0);
     servo.publish();
+    if (moving && servo.move_state() != tick::MoveState::refused) {
+      pieces.accept(*moving);
+      under_way = std::move(moving);
+    }
     ++outcome.ticks;
     const bool same_tool = !player.tool_is_recorded() || row.tool == step.row.tool;
     if (row.hash != step.row.hash || !same_tool) {

@@ -11,6 +11,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/edit/piece_store.h"
 #include "burr/record/player.h"
 #include "burr/sim/session.h"
 
@@ -24,6 +25,7 @@ struct ReplayOutcome {
   std::optional<std::uint64_t> first_different_tick;  // first tick with a different result
   std::string difference;                             // in words
   std::unique_ptr<volume::Bone> bone;                 // at the end
+  edit::PieceStore pieces;                            // that were moved
 };
 
 // bone: as at the start of the session. Error: the recording's settings cannot be understood, or

@@ -121,6 +121,18 @@ Status Session::add_second_hand(std::unique_ptr<device::Device> device,
   return fine();
 }
 
+bool Session::move_piece(const edit::PieceMove& move,
+                         std::shared_ptr<const edit::MovedBricks> bricks) {
+  BURR_CHECK(bricks != nullptr);
+  if (!servo_->lay_ready(*bricks)) return false;
+  moving_ = std::move(bricks);
+  if (servo_->commands().push(
+          {tick::CommandKind::move_piece, static_cast<double>(move.piece), move}))
+    return true;
+  servo_->take_back();
+  return false;
+}
+
 void Session::set_recorder(record::Recorder* recorder) {
   recorder_ = recorder;
   tick::RecorderRings rings;

@@ -22,6 +22,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/edit/piece_move.h"
 #include "burr/haptics/safety/watchdog.h"
 #include "burr/record/recorder.h"
 #include "burr/rt/stats.h"
@@ -115,6 +116,14 @@ class Session {
   void command(const tick::Command& command) {
     static_cast<void>(servo_->commands().push(command));
   }
+  // Sends the command `move_piece` with its bricks, which it keeps alive. False: another piece is
+  // being moved, or too many commands wait. move_state() says what became of it.
+  [[nodiscard]] bool move_piece(const edit::PieceMove& move,
+                                std::shared_ptr<const edit::MovedBricks> bricks);
+  [[nodiscard]] tick::MoveState move_state() const { return servo_->move_state(); }
+  // How often the bone was written (edit/bone_writer.h); any thread.
+  [[nodiscard]] std::uint64_t writes() const { return servo_->writes_done(); }
+  [[nodiscard]] std::uint64_t writes_begun() const { return servo_->writes_begun(); }
   [[nodiscard]] bool view(tick::TickRow& newest) { return servo_->view().take(newest); }
   [[nodiscard]] bool fault(tick::FaultReport& report) { return servo_->faults().take(report); }
   // The temperature, ten times a second of the session's time; false: nothing new, or not
@@ -155,6 +164,7 @@ class Session {
   SessionSettings settings_;
   std::unique_ptr<volume::IsoVertices> surface_;
   std::unique_ptr<thermal::Worker> heat_;
+  std::shared_ptr<const edit::MovedBricks> moving_;  // the servo reads it
   std::unique_ptr<tick::Servo> servo_;
   std::unique_ptr<tick::SecondHand> second_;
   std::unique_ptr<haptics::Watchdog> watchdog_;

@@ -8,6 +8,8 @@
 
 #include <cstdint>
 
+#include "burr/edit/piece_move.h"
+
 namespace burr::tick {
 
 enum class CommandKind : std::uint8_t {
@@ -28,12 +30,14 @@ enum class CommandKind : std::uint8_t {
   mirror_j,       // likewise across j
   mirror_k,       // likewise across k
   mirror_off,
-  burr_kind,  // value: 0 cutting, 1 diamond
-  tool,       // value: number in the session's list of tools; -1: the round burr
+  burr_kind,   // value: 0 cutting, 1 diamond
+  tool,        // value: number in the session's list of tools; -1: the round burr
+  move_piece,  // value: number of the piece; the rest is in `move`
 };
 struct Command {
   CommandKind kind = CommandKind::spindle_speed;
   double value = 0;
+  edit::PieceMove move = {};  // of move_piece
 };
 
 }  // namespace burr::tick

@@ -128,7 +128,8 @@ edit::Cutting Cutting::by_law(const Press& press, double speed) BURR_RT {
 }
 
 // Is the bone worked on in this tick? If not, the debt and the open stroke run out.
-bool Cutting::works(double push) BURR_RT {
+// may: not while bone is put back, whose stroke is not ours.
+bool Cutting::works(double push, bool may) BURR_RT {
   const double pedal = hand_.state().pedal;
   const bool works = shaped() != nullptr               ? drive_moves(push)
                      : settings_.mode == ToolMode::cut ? spindle_.speed() != 0 && push > 0
@@ -139,7 +140,7 @@ bool Cutting::works(double push) BURR_RT {
   }
   carver_.idle(dt_);
   untouched_ += dt_;
-  if (undo_.stroke_open() && untouched_ > settings_.stroke_pause)
+  if (may && undo_.stroke_open() && untouched_ > settings_.stroke_pause)
     undo_.end_stroke(carver_.removed_units());
   return false;
 }
@@ -154,14 +155,14 @@ void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64
   last_push_ = push;
   now_ = {};
   if (shaped() != nullptr) {
-    cut_shaped(push, flags, path_mark);
+    cut_shaped(push, may, flags, path_mark);
     return;
   }
   // what holds a standing burr is what would brake it if it crept
   if (settings_.mode == ToolMode::cut && push > 0 && spindle_.speed() == 0 &&
       hand_.state().pedal > 0 && settings_.removal.law != edit::RemovalLaw::thesis)
     now_.torque = by_law({now.normal, push}, std::copysign(1.0, spindle_.full_speed)).torque;
-  if (!works(push)) return;
+  if (!works(push, may)) return;
   if (!undo_.stroke_open()) undo_.begin_stroke(path_mark, carver_.removed_units());
 
   const volume::Grid& grid = bone_.grid();

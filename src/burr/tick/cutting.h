@@ -79,13 +79,13 @@ class Cutting {
   // ---- a tool of any shape (shaped_cutting.cpp)
   [[nodiscard]] const tool::ShapedTool* shaped() const BURR_RT;
   [[nodiscard]] bool drive_moves(double push) const BURR_RT;
-  void cut_shaped(double push, std::uint32_t& flags, std::uint64_t path_mark) BURR_RT;
+  void cut_shaped(double push, bool may, std::uint32_t& flags, std::uint64_t path_mark) BURR_RT;
   void swing_mallet() BURR_RT;
   [[nodiscard]] int teeth() const BURR_RT;
   [[nodiscard]] edit::ElementCutting by_elements(double per_stretch) BURR_RT;
   void place_body(edit::Cut& cut) BURR_RT;
   [[nodiscard]] const volume::Tissue& tissue_at(const math::Vec3& world) const BURR_RT;
-  [[nodiscard]] bool works(double push) BURR_RT;
+  [[nodiscard]] bool works(double push, bool may) BURR_RT;
   void brush(const edit::Cut& cut, std::uint32_t& flags) BURR_RT;
 
   const volume::Bone& bone_;

@@ -81,6 +81,9 @@ void Orders::obey(const Command& command, std::uint32_t& flags) BURR_RT {
     case CommandKind::reset:
       begin_restore(command.kind);
       break;
+    case CommandKind::move_piece:
+      parts_.restore.begin_move(command.move, flags);
+      break;
   }
 }
 

@@ -49,6 +49,48 @@ bool Restore::begin(CommandKind kind) BURR_RT {
   return true;
 }
 
+bool Restore::lay_ready(const edit::MovedBricks& bricks) {
+  const MoveState now = move_state();
+  if (now == MoveState::waiting || now == MoveState::moving) return false;
+  move_state_.store(MoveState::waiting, std::memory_order_relaxed);
+  ready_.store(&bricks, std::memory_order_release);
+  return true;
+}
+
+void Restore::take_back() {
+  if (ready_.exchange(nullptr, std::memory_order_acq_rel) != nullptr)
+    move_state_.store(MoveState::refused, std::memory_order_release);
+}
+
+bool Restore::has_room(const edit::MovedBricks& bricks) const BURR_RT {
+  std::size_t fresh = 0;
+  for (const edit::KeptBrick& brick : bricks.bricks)
+    if (bone_.brick_field(brick.brick) == nullptr) ++fresh;
+  return fresh <= bone_.free_slots();
+}
+
+void Restore::begin_move(const edit::PieceMove& move, std::uint32_t& flags) BURR_RT {
+  const edit::MovedBricks* const bricks = ready_.exchange(nullptr, std::memory_order_acquire);
+  if (bricks == nullptr) return;
+  const bool is_this = bricks->hash == move.bricks && move.writes == writer_.writes_done();
+  const bool room = !is_this || has_room(*bricks);
+  const bool undoable = !is_this || bricks->bricks.size() <= undo_.room();
+  if (!room) flags |= rt::kFlagReserve;
+  if (!undoable) flags |= rt::kFlagUndoFull;
+  if (active() || !is_this || !room || !undoable) {
+    move_state_.store(MoveState::refused, std::memory_order_release);
+    return;
+  }
+  if (undo_.stroke_open()) undo_.end_stroke(writer_.account().removed);
+  undo_.begin_stroke(path_end_, writer_.account().removed);
+  kind_ = CommandKind::move_piece;
+  state_ = State::lifting;
+  restored_ = 0;
+  moving_ = bricks;
+  has_moved_ = true;
+  move_state_.store(MoveState::moving, std::memory_order_release);
+}
+
 // The brick that comes back, 0 to range_.count.
 const edit::KeptBrick& Restore::kept(std::uint64_t number) const BURR_RT {
   const edit::UndoStore& undo = undo_;
@@ -73,7 +115,7 @@ void Restore::step(std::uint32_t& flags) BURR_RT {
   if (state_ == State::lifting) {
     lift(flags);
   } else if (state_ == State::restoring) {
-    put_back();
+    put_back(flags);
   } else {
     settle();
   }
@@ -81,7 +123,7 @@ void Restore::step(std::uint32_t& flags) BURR_RT {
 }
 
 void Restore::lift(std::uint32_t& flags) BURR_RT {
-  if (settings_.tool >= 0) {
+  if (settings_.tool >= 0 || kind_ == CommandKind::move_piece) {
     // how it was turned on its way is not known: the hand is released, and engages again in free air
     hand_.release(rt::kFlagRestoring, flags);
     state_ = State::restoring;
@@ -114,8 +156,18 @@ void Restore::lift(std::uint32_t& flags) BURR_RT {
   if (arrived) state_ = State::restoring;
 }
 
-void Restore::put_back() BURR_RT {
+void Restore::put_back(std::uint32_t& flags) BURR_RT {
   const auto most = static_cast<std::size_t>(std::max(1.0, std::ceil(kRestorePerSecond * dt_)));
+  if (kind_ == CommandKind::move_piece) {
+    const std::size_t count = moving_->bricks.size();
+    for (std::size_t n = 0; n < most && restored_ < count; ++n, ++restored_)
+      writer_.put(moving_->bricks[restored_], flags);
+    if (restored_ < count) return;
+    writer_.account().moved += moving_->lost;
+    undo_.end_stroke(writer_.account().removed, moving_->lost);
+    state_ = State::settling;
+    return;
+  }
   for (std::size_t n = 0; n < most && restored_ < range_.count; ++n, ++restored_) {
     if (kind_ == CommandKind::reset) {
       writer_.restore(undo_.original(static_cast<std::size_t>(restored_)));
@@ -127,6 +179,10 @@ void Restore::put_back() BURR_RT {
   state_ = State::settling;
   edit::Account& account = writer_.account();
   if (kind_ == CommandKind::reset)
+    account.moved = 0;
+  else
+    account.moved += kind_ == CommandKind::undo ? -range_.moved : range_.moved;
+  if (kind_ == CommandKind::reset)
     account.undone = account.removed;
   else
     account.undone += kind_ == CommandKind::undo ? range_.removed : -range_.removed;
@@ -135,6 +191,10 @@ void Restore::put_back() BURR_RT {
 void Restore::settle() BURR_RT {
   if (surface_.stale() != 0) return;
   state_ = State::none;
+  if (moving_ != nullptr) {
+    moving_ = nullptr;
+    move_state_.store(MoveState::done, std::memory_order_release);
+  }
   if ((settings_.tool >= 0 || haptics::begins_free(settings_.touch)) && !hand_.tool_is_free())
     hand_.disengage();  // never go on inside bone
 }

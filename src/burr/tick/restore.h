@@ -1,17 +1,20 @@
-// tick/restore.h - undo, redo and reset, some ticks long.
+// tick/restore.h - undo, redo, reset, and a piece that is put somewhere else; some ticks long.
 //
-//     lifting     the tool goes back the way it came, until what returns cannot touch it
-//     restoring   bricks are put back, a few a tick
+//     lifting     the tool goes back the way it came, until what returns cannot touch it; for a
+//                 piece the hand is released, and engages again in free air
+//     restoring   bricks are put back, a few a tick; those of a piece were prepared elsewhere
 //     settling    their surface is made again; then the tool follows the hand again
 //
-// Thread: servo. Frame: world. Units: SI. Memory: the way of the tool, 1.5 MiB, at construction.
+// Thread: servo; lay_ready() and move_state() one other. Frame: world. Units: SI. Memory: the way of the tool, 1.5 MiB, at construction.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "burr/edit/bone_writer.h"
+#include "burr/edit/piece_move.h"
 #include "burr/edit/undo.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
@@ -23,6 +26,8 @@
 
 namespace burr::tick {
 
+enum class MoveState : std::uint8_t { none, waiting, moving, done, refused };
+
 class Restore {
  public:
   Restore(const volume::Bone& bone, const volume::IsoVertices& surface, edit::UndoStore& undo,
@@ -31,6 +36,21 @@ class Restore {
   // kind: undo, redo or reset. False: one is in progress already, or there is nothing to put back.
   bool begin(CommandKind kind) BURR_RT;
   [[nodiscard]] bool active() const BURR_RT { return state_ != State::none; }
+
+  // Another thread: these are the bricks of the next command `move_piece`. They must live until
+  // move_state() is neither waiting nor moving. False: another move is not finished.
+  [[nodiscard]] bool lay_ready(const edit::MovedBricks& bricks);
+  // Takes that back, if the command did not reach the servo.
+  void take_back();
+  [[nodiscard]] MoveState move_state() const BURR_RT {
+    return move_state_.load(std::memory_order_acquire);
+  }
+  // Refused, and the bone stays as it is: it was changed since the bricks were made, nothing is
+  // ready, there is no room for the piece (kFlagReserve) or to undo it (kFlagUndoFull), or something
+  // else is in progress.
+  void begin_move(const edit::PieceMove& move, std::uint32_t& flags) BURR_RT;
+  // A piece was moved in this session: bricks are recorded with their tissues.
+  [[nodiscard]] bool has_moved() const BURR_RT { return has_moved_; }
   // A tick of it, instead of touch.
   void step(std::uint32_t& flags) BURR_RT;
 
@@ -45,7 +65,8 @@ class Restore {
   [[nodiscard]] const edit::KeptBrick& kept(std::uint64_t number) const BURR_RT;
   [[nodiscard]] bool clear_of_what_returns(const math::Vec3& p) const BURR_RT;
   void lift(std::uint32_t& flags) BURR_RT;
-  void put_back() BURR_RT;
+  void put_back(std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] bool has_room(const edit::MovedBricks& bricks) const BURR_RT;
   void settle() BURR_RT;
 
   const volume::Bone& bone_;
@@ -64,6 +85,11 @@ class Restore {
   edit::UndoStore::Range range_;
   std::uint64_t restored_ = 0, path_at_ = 0;
   double lift_since_check_ = 0;  // [m]
+
+  std::atomic<const edit::MovedBricks*> ready_ = nullptr;
+  std::atomic<MoveState> move_state_ = MoveState::none;
+  const edit::MovedBricks* moving_ = nullptr;
+  bool has_moved_ = false;
 };
 
 }  // namespace burr::tick

@@ -71,7 +71,7 @@ class Servo {
   // the truth.
   void note_timing(double took_us, double late_us) BURR_RT;
   // Hands the finished row to the recorder and the view.
-  void publish() BURR_RT { outbox_.publish(row_, cutting_.deposited()); }
+  void publish() BURR_RT { outbox_.publish(row_, tissue_changes()); }
 
   // What the last tick had to do, in counts that are the same on every machine.
   struct Work {
@@ -87,13 +87,25 @@ class Servo {
   [[nodiscard]] const edit::UndoStore& undo_store() const BURR_RT { return undo_; }
   [[nodiscard]] std::size_t bricks_to_write() const BURR_RT { return changed_.size(); }
   [[nodiscard]] bool restoring() const BURR_RT { return restore_.active(); }
+  // ---- a piece that is put somewhere else (restore.h); from main
+  [[nodiscard]] bool lay_ready(const edit::MovedBricks& bricks) {
+    return restore_.lay_ready(bricks);
+  }
+  void take_back() { restore_.take_back(); }
+  [[nodiscard]] MoveState move_state() const { return restore_.move_state(); }
+  // bone_writer.h; any thread
+  [[nodiscard]] std::uint64_t writes_begun() const { return writer_.writes_begun(); }
+  [[nodiscard]] std::uint64_t writes_done() const { return writer_.writes_done(); }
   // Everything still owed to the recorder, regardless of budget; after the last tick.
-  void flush_bricks() BURR_RT { outbox_.flush_bricks(row_.tick, cutting_.deposited()); }
+  void flush_bricks() BURR_RT { outbox_.flush_bricks(row_.tick, tissue_changes()); }
   // Takes the memory that undo will need next; every few milliseconds while it ticks, from one
   // other thread.
   void commit_ahead() { undo_.commit_ahead(); }
 
  private:
+  [[nodiscard]] bool tissue_changes() const BURR_RT {
+    return cutting_.deposited() || restore_.has_moved();
+  }
   void feel(bool usable) BURR_RT;
   void note_tool() BURR_RT;
   void finish_row(const Hand::Sent& sent) BURR_RT;

@@ -142,10 +142,11 @@ void Cutting::place_body(edit::Cut& cut) BURR_RT {
   cut.body = &body_;
 }
 
-void Cutting::cut_shaped(double push, std::uint32_t& flags, std::uint64_t path_mark) BURR_RT {
+void Cutting::cut_shaped(double push, bool may, std::uint32_t& flags,
+                         std::uint64_t path_mark) BURR_RT {
   const tool::Cutter& cutter = shaped()->cutter;
   if (cutter.drive == tool::Drive::struck) swing_mallet();
-  const bool now = works(push) && hand_.parts() != nullptr;
+  const bool now = works(push, may) && hand_.parts() != nullptr;
   if (now) {
     if (!undo_.stroke_open()) undo_.begin_stroke(path_mark, carver_.removed_units());
     const haptics::Touch& touch = hand_.touch();

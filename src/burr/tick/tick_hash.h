@@ -2,7 +2,7 @@
 //
 // Chained: `before` is the hash of the previous tick, so the last hash covers the whole session.
 // The times (took_us, late_us) are left out, because they differ from run to run. A torque of zero,
-// sent or not, and a turn of zero are left out too, so that recordings from before these existed keep
+// sent or not, a turn of zero and a piece never moved are left out too, so that recordings from before these existed keep
 // their hashes. For the same reason the undone volume
 // is left out: it follows from the removed volume and the commands. No allocation.
 #pragma once
@@ -50,6 +50,7 @@ namespace burr::tick {
   add(row.ledger.not_cut);
   add(row.ledger.added);
   add(row.ledger.energy);
+  if (row.ledger.moved != 0) add(row.ledger.moved);
   add(row.spindle_rad_s);
   add(row.cutting_nm);
   add(row.cutting_w);

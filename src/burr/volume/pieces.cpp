@@ -307,9 +307,15 @@ Result<std::unique_ptr<Bone>> piece_as_bone(const Bone& bone, const PieceFinder&
   auto out = std::make_unique<Bone>(bone.grid(), bone.tissues(), bone.used_slots(), 0, false);
   Around around(bone, finder);
   std::array<std::int32_t, kBrickVoxels> labels;
+  // nothing further away belongs to it, unless it is the largest
+  const Ijk reach = Ijk::Constant(static_cast<int>(kRamp));
+  const Ijk low = finder.pieces()[piece].low - reach, high = finder.pieces()[piece].high + reach;
   for (BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {
     const Field* const field = bone.brick_field(brick);
     if (field == nullptr) continue;
+    const Ijk first = bone.brick_ijk(brick), last = first + Ijk::Constant(kBrickEdge - 1);
+    if (wanted > 0 && ((last.array() < low.array()).any() || (first.array() > high.array()).any()))
+      continue;
     finder.label(brick, labels);
     BrickField mine = {};
     bool any = false;

@@ -13,7 +13,7 @@
 
 namespace burr::app {
 
-enum class Menu { views, all, rack };
+enum class Menu { views, all, rack, pieces };
 
 struct MenuItem {
   std::string name, key;

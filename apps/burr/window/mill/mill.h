@@ -4,7 +4,7 @@
 // Its parts: window.cpp (the loop of pictures), mill_hand.cpp (the mouse as a hand, and what each
 // button does), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
 // mill_status.cpp (what the user reads), mill_diary.cpp (what the recording keeps), mill_names.cpp
-// (the names of structures), mill_tools.cpp (the rack), mill_steps.cpp (the steps of the case, and what the mode of the session allows). Parts with a state of their own
+// (the names of structures), mill_tools.cpp (the rack), mill_pieces.cpp (free pieces), mill_steps.cpp (the steps of the case, and what the mode of the session allows). Parts with a state of their own
 // are classes: Drill, Press, Pointer, OverPages, WornHeadset, TickWatch, SuctionTube, Steps,
 // Technique, StepLight. Only these files include this header.
 //
@@ -39,6 +39,7 @@
 #include "window/mill/mirror_mode.h"
 #include "window/mill/orientation_cube.h"
 #include "window/mill/over_pages.h"
+#include "window/mill/piece_mode.h"
 #include "window/mill/pinned_labels.h"
 #include "window/mill/pointer.h"
 #include "window/mill/press.h"
@@ -187,7 +188,7 @@ class Mill {
   void pick_point();
   [[nodiscard]] bool page_open() const { return pages_->open(); }
   [[nodiscard]] bool pressing() const {
-    return !lifts_.stopped && press_.on() && !measuring_.picks() && !page_open() &&
+    return !lifts_.stopped && press_.on() && !measuring_.picks() && !page_open() && !has_piece() &&
            !pointer_.over_panel() && !pointer_.over_slices();
   }
   // the lower of the settings' limit and the user's limit for this device  [N]
@@ -210,6 +211,11 @@ class Mill {
   [[nodiscard]] bool holds_by_mouse() const;
   void draw_rack_pictures();
   void draw_rack_panel();
+  void look_at_pieces();
+  void draw_pieces_panel();
+  bool piece_key(const SDL_Keysym& pressed);
+  void drag_piece(const SDL_MouseMotionEvent& motion);
+  [[nodiscard]] bool has_piece() const { return pieces_ && pieces_->taken(); }
   [[nodiscard]] std::optional<HudState::Nearest> nearest_spared();
 
   // ---- mill_diary.cpp
@@ -290,7 +296,8 @@ class Mill {
   Leaf leaf_ = Leaf::task;  // of the panel beside the tools
   bool task_read_ = false;  // bone has been removed
   Steps steps_;
-  std::optional<StepWatch> watch_;  // made by begin(), before the session starts
+  std::optional<StepWatch> watch_;   // made by begin(), before the session starts
+  std::optional<PieceMode> pieces_;  // likewise
   bool steps_begun_ = false;
   std::string lit_step_;       // whose target is lit, or was lit last
   double removed_before_ = 0;  // up to the picture before [m^3]

@@ -48,7 +48,9 @@ void Mill::take_events() {
         break;
       case SDL_KEYDOWN:
         if (event.key.keysym.sym == SDLK_SPACE && held_before(to_front_, event.key)) break;
-        if (!desk_.ui().typing() && !aim_key(event.key.keysym, true)) key(event.key.keysym);
+        if (!desk_.ui().typing() && !piece_key(event.key.keysym) &&
+            !aim_key(event.key.keysym, true))
+          key(event.key.keysym);
         break;
       case SDL_KEYUP:
         aim_key(event.key.keysym, false);
@@ -357,6 +359,7 @@ void Mill::move(const SDL_MouseMotionEvent& motion) {
   // an accidental movement of the mouse must not move a burr that a pad presses
   if (pointer_.pad_leads() && press_.by_pad()) return;
   pointer_.moved_to(motion.x, motion.y);
+  if (has_piece()) drag_piece(motion);
   const Uint32 turns = desk_.settings.left_handed ? SDL_BUTTON_LMASK : SDL_BUTTON_RMASK;
   if ((motion.state & turns) != 0 && pulls_window_) {
     const double edge = scene_.insets.empty() ? 1 : scene_.insets.front().width;

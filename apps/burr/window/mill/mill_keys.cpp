@@ -210,6 +210,12 @@ Mill::KeyRows Mill::tool_keys() {
        Word::help_undo,
        {act_key(SDLK_u, Action::undo), act_key(SDLK_y, Action::redo)}},
       {HelpBlock::tools, "R", Word::help_reset, {act_key(SDLK_r, Action::reset)}},
+      {HelpBlock::tools,
+       "Ctrl + M",
+       Word::help_pieces,
+       {item_key(
+           SDLK_m, [](Mill& m) { m.toggle_menu(Menu::pieces); }, word(Word::help_pieces),
+           KMOD_CTRL)}},
       {HelpBlock::tools, "D", Word::help_measure, {act_key(SDLK_d, Action::measure)}},
       {HelpBlock::tools,
        "X",
@@ -341,6 +347,7 @@ std::vector<KeyReach> key_reaches() {
 void Mill::draw_menu_panel() {
   if (!menu_) return;
   if (*menu_ == Menu::rack) return draw_rack_panel();
+  if (*menu_ == Menu::pieces) return draw_pieces_panel();
   std::vector<MenuItem> items;
   std::vector<std::function<void(Mill&)>> does;
   for (const KeyRow& row : key_rows(desk_.settings.left_handed))

@@ -73,6 +73,7 @@ void Mill::begin() {
   show_labels(labels_);  // an exam begins without the colours of the tissues
   if (options_.mode == record::Mode::exam) note(word(Word::exam_begins));
   pages_.emplace(desk_, session_, scene_, options_, &Mill::help_rows);
+  pieces_.emplace(session_, options_.lesson ? &*options_.lesson : nullptr);
   if (steps_offered() && options_.mode != record::Mode::free)
     watch_.emplace(session_.bone(), *options_.lesson);
   pointer_.begin();
@@ -90,6 +91,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   take_events();
   take_hands();
   look_at_session();
+  look_at_pieces();
   views_.look(scene_);
   if (!desk_.settings.effects)
     live.look_plain();
@@ -136,6 +138,8 @@ void Mill::end(workshop::LiveSurface& live) {
   headset_.take_off();
   pointer_.mouse_leads();
   pages_.reset();
+  pieces_->show(scene_, false);
+  pieces_.reset();
   session_.stop();
   end_diary();
   light_.off(scene_);

@@ -1,0 +1,91 @@
+// `burr pieces`: the pieces into which the bone of a recording came apart, where they were moved, how
+// they fit there, and how far they are from the plan of the case.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "burr/record/player.h"
+#include "burr/scenario/open_lesson.h"
+#include "burr/sim/move_pieces.h"
+#include "burr/volume/copy_of_bone.h"
+#include "burr/workshop/label_check.h"
+#include "burr/workshop/recording.h"
+#include "commands/command.h"
+#include "commands/json_line.h"
+#include "commands/piece_words.h"
+#include "commands/volume_words.h"
+
+namespace burr::app {
+namespace {
+
+struct Options {
+  std::string source;
+  scenario::Recipe volume;
+  double at_s = -1;  // below 0: the end
+  bool json = false;
+};
+
+Status run(const Options& options) {
+  auto player = record::Player::open(options.source);
+  if (!player) return player.error();
+  auto bone = workshop::bone_of(**player, options.volume, progress());
+  if (!bone) return bone.error();
+  const std::unique_ptr<volume::Bone> now = volume::copy_of(**bone);
+  const auto store = sim::moved_in(**player, *now, options.at_s);
+  if (!store) return store.error();
+  const double at_s = options.at_s < 0 ? (*player)->seconds() : options.at_s;
+  const Status there = (*player)->bone_at(at_s, *now);
+  if (!there) return there.error();
+  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
+
+  std::optional<scenario::Lesson> lesson;
+  if ((*player)->info().work_case) {
+    const auto work = record::case_of(*(*player)->info().work_case);
+    if (!work) return work.error();
+    auto read = scenario::lesson_of(*work);
+    if (!read) return read.error();
+    auto placed =
+        scenario::place(std::move(*read), workshop::landmarks_of(*work), work->name + ".toml");
+    if (!placed) return placed.error();
+    lesson = std::move(*placed);
+  }
+  const nlohmann::ordered_json pieces = pieces_json(*store, *now, lesson ? &*lesson : nullptr);
+  std::size_t free = 0, splinters = 0;
+  for (const edit::PieceStore::Found& one : store->list(*now)) ++(one.dust ? splinters : free);
+  if (options.json) {
+    nlohmann::ordered_json out;
+    out["free"] = free;
+    out["splinters"] = splinters;
+    out["moved"] = pieces;
+    fmt::print("{}\n", json_line(out));
+    return fine();
+  }
+  fmt::print("{} free, {} of them moved; {} splinters\n",
+             free == 1 ? "1 piece" : fmt::format("{} pieces", free), pieces.size(), splinters);
+  for (const std::string& line : pieces_text(pieces)) fmt::print("{}\n", line);
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto* command = app.add_subcommand(
+      "pieces", "say where the pieces of a recorded session's bone were moved, and how they fit");
+  auto options = std::make_shared<Options>();
+  command->add_option("recording", options->source, "a recording (.mcap)")->required();
+  command->add_option("--at", options->at_s, "moment of the recording [s]; default: its end")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--volume", options->volume.source,
+                      "the volume it was made from (default: burr searches for it)");
+  add_volume_options(*command, options->volume);
+  command->add_flag("--json", options->json, "one JSON object as the last line");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{61, add};
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,75 @@
+// Free pieces of bone on the page: told, taken, moved, put down.
+#include <SDL2/SDL.h>
+
+#include "window/mill/mill.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+
+using math::Vec3;
+
+void Mill::look_at_pieces() {
+  const bool open = menu_ == Menu::pieces;
+  note(pieces_->look(open));
+  pieces_->show(scene_, open);
+}
+
+void Mill::draw_pieces_panel() {
+  const PiecesPressed pressed = draw_pieces(desk_.ui(), pieces_->state());
+  if (pressed.typed) pieces_->set(pressed.mm, pressed.degrees);
+  if (pressed.take) {
+    lift();
+    pieces_->take(*pressed.take);
+  }
+  if (pressed.put_down) pieces_->put_down();
+  if (pressed.leave) pieces_->leave();
+  if (pressed.close) menu_.reset();
+}
+
+// Keys that move the piece in the hand; false: this key is none of them.
+bool Mill::piece_key(const SDL_Keysym& pressed) {
+  if (!has_piece() || page_open()) return false;
+  const bool fine = (pressed.mod & KMOD_SHIFT) != 0, turns = (pressed.mod & KMOD_CTRL) != 0;
+  const render::Camera& camera = scene_.camera;
+  const auto go = [&](const Vec3& way, const Vec3& axis) {
+    if (turns)
+      pieces_->turn(axis, fine ? PieceMode::kFineTurn : PieceMode::kTurn);
+    else
+      pieces_->shift((fine ? PieceMode::kFineStep : PieceMode::kStep) * way);
+    return true;
+  };
+  switch (pressed.sym) {
+    case SDLK_LEFT:
+      return go(-camera.right(), -camera.above());
+    case SDLK_RIGHT:
+      return go(camera.right(), camera.above());
+    case SDLK_UP:
+      return go(camera.above(), -camera.right());
+    case SDLK_DOWN:
+      return go(-camera.above(), camera.right());
+    case SDLK_PAGEUP:
+      return go(-camera.backward(), camera.backward());
+    case SDLK_PAGEDOWN:
+      return go(camera.backward(), -camera.backward());
+    case SDLK_RETURN:
+    case SDLK_KP_ENTER:
+      pieces_->put_down();
+      return true;
+    case SDLK_ESCAPE:
+      pieces_->leave();
+      return true;
+    default:
+      return false;
+  }
+}
+
+// With the button that mills, in the plane of the picture.
+void Mill::drag_piece(const SDL_MouseMotionEvent& motion) {
+  const Uint32 mills = desk_.settings.left_handed ? SDL_BUTTON_RMASK : SDL_BUTTON_LMASK;
+  if ((motion.state & mills) == 0) return;
+  const double pixel = scene_.camera.view_height() / pointer_.height();
+  pieces_->shift(pixel *
+                 (motion.xrel * scene_.camera.right() - motion.yrel * scene_.camera.above()));
+}
+
+}  // namespace burr::app

@@ -1,0 +1,227 @@
+#include "window/mill/piece_mode.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "burr/math/turn.h"
+#include "burr/surface/mesher.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+using math::Pose;
+using math::Quat;
+using math::Vec3;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr render::Colour kFrame = {0.95F, 0.70F, 0.12F}, kGhost = {0.34F, 0.71F, 0.91F};
+constexpr std::size_t kMostColours = 256;
+
+// Corners of the box around a piece, low and high, in p_grid.
+std::array<Vec3, 2> box_of(const volume::Bone& piece) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (volume::BrickIndex brick = 0; brick < piece.brick_count(); ++brick) {
+    const volume::Field* const field = piece.brick_field(brick);
+    if (field == nullptr) continue;
+    const math::Ijk first = piece.brick_ijk(brick);
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      if (field[v] < volume::kIso) continue;
+      const Vec3 p = (first + math::Ijk(v & 7, v >> 3 & 7, v >> 6)).cast<double>();
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  return {low, high};
+}
+
+std::shared_ptr<const render::CoarseMesh> mesh_of(const volume::Bone& piece) {
+  NoProgress quiet;
+  const auto surface = surface::whole_surface(piece, 1, quiet);
+  if (!surface) return nullptr;
+  render::JoinedMesh all;
+  all.add(render::SkinMesh(*surface));
+  auto mesh = std::make_shared<render::CoarseMesh>();
+  mesh->vertices = std::move(all.vertices);
+  mesh->levels = {{0, std::move(all.triangles)}};
+  return mesh;
+}
+
+// The mesh at another place, in one colour.
+std::shared_ptr<const render::CoarseMesh> moved(const render::CoarseMesh& mesh, const Pose& by,
+                                                volume::TissueId colour) {
+  auto out = std::make_shared<render::CoarseMesh>(mesh);
+  for (render::SkinVertex& vertex : out->vertices) {
+    const Vec3 n = by.q * render::normal_of(vertex).cast<double>();
+    vertex.p = (by * vertex.p.cast<double>()).cast<float>();
+    vertex.rest = render::folded(n.cast<float>(), colour);
+    vertex.under = 0;
+  }
+  return out;
+}
+
+double degrees_of(const Quat& q) { return math::rotation_vector(q).norm() / kDegree; }
+
+}  // namespace
+
+PieceMode::PieceMode(sim::Session& session, const scenario::Lesson* lesson)
+    : session_(session), lesson_(lesson), mover_(session) {}
+
+std::string PieceMode::look(bool open) {
+  std::string text;
+  for (const sim::PieceMover::News& news : mover_.look())
+    text = news.dust ? say(Word::piece_dust, news.count, 1e9 * news.volume)
+                     : say(Word::piece_free, 1e9 * news.volume);
+  if (putting_ && mover_.state() == sim::PieceMover::State::put) {
+    putting_ = false;
+    taken_.reset();
+    text = mover_.overlap() > 0.05e-9 ? say(Word::piece_overlaps, 1e9 * mover_.overlap())
+                                      : std::string(word(Word::piece_lies));
+  } else if (putting_ && mover_.state() == sim::PieceMover::State::refused) {
+    putting_ = false;
+    text = say(Word::piece_refused, mover_.why());
+  }
+  if (!open) {
+    taken_.reset();
+    list_.reset();
+    asked_ = false;
+    return text;
+  }
+  const std::uint64_t writes = session_.writes();
+  if (taken_ || putting_) return text;
+  if (list_ && writes != listed_writes_) {  // it was cut, undone, put down
+    list_.reset();
+    asked_ = false;
+  }
+  if (!list_ && !asked_) {
+    mover_.take();
+    asked_ = true;
+    listed_writes_ = writes;
+  }
+  if (list_) return text;
+  list_ = mover_.list();
+  boxes_.clear();
+  if (list_)
+    for (const edit::PieceStore::Found& piece : *list_) boxes_.push_back(box_of(*piece.bone));
+  return text;
+}
+
+Pose PieceMode::pose_of(const Taken& taken) const {
+  const Vec3 centre = taken.piece.now * taken.piece.centre;
+  const Pose further = {centre + taken.by - taken.turn * centre, taken.turn};
+  return further * taken.piece.now;
+}
+
+void PieceMode::take(std::size_t row) {
+  if (!list_ || row >= list_->size() || putting_) return;
+  Taken taken;
+  taken.piece = (*list_)[row];
+  taken.row = row;
+  taken.plain = mesh_of(*taken.piece.bone);
+  if (lesson_ != nullptr) taken.plan = workshop::plan_of(*lesson_, *taken.piece.bone);
+  taken_ = std::move(taken);
+}
+
+void PieceMode::put_down() {
+  if (taken_ && !putting_) putting_ = mover_.put(taken_->piece, taken_->by, taken_->turn);
+}
+
+void PieceMode::shift(const Vec3& by) {
+  if (!taken_ || putting_) return;
+  taken_->by += by;
+  taken_->stale = true;
+}
+
+void PieceMode::turn(const Vec3& axis, double degrees) {
+  if (!taken_ || putting_) return;
+  taken_->turn = math::normalized(
+      math::product(Quat(Eigen::AngleAxisd(degrees * kDegree, axis)), taken_->turn));
+  taken_->stale = true;
+}
+
+void PieceMode::set(const std::array<double, 3>& mm, const std::array<double, 3>& degrees) {
+  if (!taken_ || putting_) return;
+  taken_->by = Vec3(mm[0], mm[1], mm[2]) * 1e-3;
+  const Vec3 turn = Vec3(degrees[0], degrees[1], degrees[2]) * kDegree;
+  const double angle = turn.norm();
+  taken_->turn = angle > 0 ? Quat(Eigen::AngleAxisd(angle, turn / angle)) : Quat(Quat::Identity());
+  taken_->stale = true;
+}
+
+std::string PieceMode::plan_text() const {
+  if (!taken_ || taken_->plan == nullptr) return {};
+  const Pose whole = pose_of(*taken_);
+  const Vec3 by = whole * taken_->piece.centre - taken_->piece.centre;
+  const workshop::OffPlan off = workshop::off_plan(*taken_->plan, by, whole.q);
+  return say(Word::piece_plan, 1e3 * off.way, 1e3 * off.wanted_way, 1e3 * off.off,
+             off.turned_off / kDegree);
+}
+
+PiecesState PieceMode::state() const {
+  PiecesState state;
+  state.looking = list_ == nullptr;
+  state.putting = putting_;
+  if (list_)
+    for (const edit::PieceStore::Found& piece : *list_)
+      state.rows.push_back({1e9 * piece.volume,
+                            1e3 * (piece.now * piece.centre - piece.centre).norm(),
+                            degrees_of(piece.now.q), piece.dust});
+  if (!taken_) return state;
+  state.taken = taken_->row;
+  const Vec3 turn = math::rotation_vector(taken_->turn) / kDegree;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    state.mm[axis] = 1e3 * taken_->by[static_cast<int>(axis)];
+    state.degrees[axis] = turn[static_cast<int>(axis)];
+  }
+  state.plan = plan_text();
+  return state;
+}
+
+void PieceMode::frame(render::Scene& scene, const edit::PieceStore::Found& piece,
+                      double line) const {
+  const auto n = static_cast<std::size_t>(&piece - list_->data());
+  const volume::Grid& grid = piece.bone->grid();
+  const auto corner = [&](int c) {
+    const std::array<Vec3, 2>& box = boxes_[n];
+    const Vec3 p((c & 1) != 0 ? box[1].x() : box[0].x(), (c & 2) != 0 ? box[1].y() : box[0].y(),
+                 (c & 4) != 0 ? box[1].z() : box[0].z());
+    return Vec3(piece.now * grid.world_from_grid(p));
+  };
+  for (int c = 0; c < 8; ++c)
+    for (const int edge : {1, 2, 4})
+      if ((c & edge) == 0)
+        scene.rods.push_back({corner(c), corner(c | edge), line, kFrame, false, false});
+}
+
+void PieceMode::show(render::Scene& scene, bool shown) {
+  // what was drawn before
+  std::erase_if(scene.rods,
+                [this](const render::Rod& rod) { return line_ > 0 && rod.radius == line_; });
+  line_ = 0;
+  if (std::exchange(ghost_drawn_, false)) scene.soft.resize(softs_);
+  if (!shown || !list_) return;
+  line_ = 0.00121 * scene.camera.view_height();
+  for (const edit::PieceStore::Found& piece : *list_)
+    if (!piece.dust) frame(scene, piece, line_);
+  if (!taken_ || taken_->plain == nullptr) return;
+  const std::size_t colour = session_.bone_tissues().tissues.size();
+  if (colour >= kMostColours) return;
+  scene.tissue_colours.resize(colour + 1);
+  scene.tissue_colours[colour] = kGhost;
+  if (std::exchange(taken_->stale, false))
+    taken_->ghost = moved(*taken_->plain, pose_of(*taken_), static_cast<volume::TissueId>(colour));
+  render::SoftStructure ghost;
+  ghost.tissue = static_cast<volume::TissueId>(colour);
+  ghost.mesh = taken_->ghost;
+  for (const render::SkinVertex& vertex : ghost.mesh->vertices)
+    ghost.box.extend(vertex.p.cast<double>());
+  softs_ = scene.soft.size();
+  scene.soft.push_back(std::move(ghost));
+  ghost_drawn_ = true;
+}
+
+}  // namespace burr::app

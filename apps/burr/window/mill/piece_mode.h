@@ -1,0 +1,77 @@
+// apps/burr/window/mill/piece_mode.h - free pieces of bone on the page for milling: they are told,
+// framed in the picture, taken, moved as a ghost, and put down.
+//
+// The piece under way is a picture only: the bone stays as it was until the piece is put down, and is
+// then changed by one recorded command. Thread: main; the work is done beside it (sim/piece_mover.h).
+// Frame: world. Units: SI.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burr/render/scene.h"
+#include "burr/scenario/lesson.h"
+#include "burr/sim/piece_mover.h"
+#include "burr/workshop/piece_plan.h"
+#include "window/mill/pieces_panel.h"
+
+namespace burr::app {
+
+class PieceMode {
+ public:
+  static constexpr double kStep = 0.5e-3, kFineStep = 0.1e-3;  // of a key                [m]
+  static constexpr double kTurn = 1, kFineTurn = 0.2;          // of a key           [degree]
+
+  // Before the session starts. lesson: nullptr without a case; must outlive this.
+  PieceMode(sim::Session& session, const scenario::Lesson* lesson);
+
+  // Once a picture. What the user should read; empty: nothing new. open: the panel is shown.
+  [[nodiscard]] std::string look(bool open);
+  // Draws the frames of the free pieces, and the ghost of the one under way. shown: the panel is open.
+  void show(render::Scene& scene, bool shown);
+
+  [[nodiscard]] bool taken() const { return taken_.has_value(); }
+  void take(std::size_t row);
+  void leave() { taken_.reset(); }
+  void put_down();
+  // In the picture's axes, by keys and mouse.
+  void shift(const math::Vec3& by);
+  void turn(const math::Vec3& axis, double degrees);
+  // Of the panel: typed numbers, along and about the patient's axes.
+  void set(const std::array<double, 3>& mm, const std::array<double, 3>& degrees);
+
+  [[nodiscard]] PiecesState state() const;
+
+ private:
+  struct Taken {
+    edit::PieceStore::Found piece;
+    std::size_t row = 0;
+    math::Vec3 by = math::Vec3::Zero();        // further, from where it lies now
+    math::Quat turn = math::Quat::Identity();  // further
+    const scenario::PlannedPiece* plan = nullptr;
+    std::shared_ptr<const render::CoarseMesh> plain;  // where it came free
+    std::shared_ptr<const render::CoarseMesh> ghost;  // where it is drawn
+    bool stale = true;                                // the ghost
+  };
+  [[nodiscard]] math::Pose pose_of(const Taken& taken) const;
+  [[nodiscard]] std::string plan_text() const;
+  void frame(render::Scene& scene, const edit::PieceStore::Found& piece, double line) const;
+
+  sim::Session& session_;
+  const scenario::Lesson* lesson_;
+  sim::PieceMover mover_;
+  std::shared_ptr<const std::vector<edit::PieceStore::Found>> list_;
+  std::vector<std::array<math::Vec3, 2>> boxes_;  // of the pieces of the list, where they came free
+  bool asked_ = false, putting_ = false;
+  std::uint64_t listed_writes_ = 0;
+  std::optional<Taken> taken_;
+  double line_ = 0;        // radius of the frames' rods; 0: none drawn
+  std::size_t softs_ = 0;  // soft structures of the bone itself
+  bool ghost_drawn_ = false;
+};
+
+}  // namespace burr::app

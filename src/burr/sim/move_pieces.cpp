@@ -1,0 +1,91 @@
+#include "burr/sim/move_pieces.h"
+
+#include <Eigen/Geometry>
+#include <utility>
+
+#include "burr/math/turn.h"
+#include "burr/rt/flags.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::sim {
+
+using math::Quat;
+using math::Vec3;
+
+edit::PieceMove further(const edit::PieceStore::Found& piece, const Vec3& by, const Quat& turn) {
+  const Quat whole = math::normalized(math::product(turn, piece.now.q));
+  const Vec3 shift = piece.now * piece.centre - piece.centre + by;
+  edit::PieceMove move;
+  move.piece = piece.number;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    move.seed[axis] = piece.seed[static_cast<int>(axis)];
+    move.by[axis] = shift[static_cast<int>(axis)];
+  }
+  move.turn = {whole.x(), whole.y(), whole.z(), whole.w()};
+  return move;
+}
+
+Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store, const PieceOrder& order,
+                              Progress& progress) {
+  constexpr double kRest = 0.2;   // the recorder has written every brick by then  [s]
+  constexpr double kStep = 0.05;  // [s]
+  constexpr double kMost = 60;    // a piece of 10 million bricks' worth of ticks   [s]
+  session.run(kRest, progress);
+  const volume::Bone& bone = session.bone();
+  const auto piece = store.find(bone, order.near);
+  if (!piece) return piece.error();
+  const double angle = order.turn.norm();
+  const Quat turn =
+      angle > 0 ? Quat(Eigen::AngleAxisd(angle, order.turn / angle)) : Quat(Quat::Identity());
+  PieceMoved done;
+  done.move = further(*piece, order.by, turn);
+  done.move.writes = session.servo().writes_done();
+  auto prepared = store.prepare(bone, done.move);
+  if (!prepared) return prepared.error();
+  done.move.bricks = prepared->bricks->hash;
+  if (!session.move_piece(done.move, prepared->bricks))
+    return error(Trouble::internal, "the command to move the piece did not reach the servo");
+  for (double waited = 0; waited < kMost; waited += kStep) {
+    session.run(kStep, progress);
+    if (progress.cancelled()) return error(Trouble::interrupted, "stopped while a piece was moved");
+    const tick::MoveState now = session.move_state();
+    if (now == tick::MoveState::refused) {
+      const std::uint32_t flags = session.outcome().flags;
+      return error(Trouble::usage, (flags & rt::kFlagReserve) != 0
+                                       ? "there is no room for the piece in its new place; raise "
+                                         "--reserve-bricks"
+                                   : (flags & rt::kFlagUndoFull) != 0
+                                       ? "the piece is too large to be undone; raise --undo-bricks"
+                                       : "the bone was changed while the piece was taken");
+    }
+    if (now != tick::MoveState::done) continue;
+    store.accept(*prepared);
+    const double voxel = bone.grid().voxel,
+                 unit = voxel * voxel * voxel / static_cast<double>(volume::kVoxelUnits);
+    done.volume = piece->volume;
+    done.lost = static_cast<double>(prepared->bricks->lost) * unit;
+    done.overlap = static_cast<double>(prepared->bricks->overlap) * unit;
+    return done;
+  }
+  return error(Trouble::internal, "the piece was not put down in time");
+}
+
+Result<edit::PieceStore> moved_in(record::Player& player, volume::Bone& bone, double until) {
+  edit::PieceStore store;
+  record::StepCursor steps = player.steps();
+  const double rate = player.info().rate_hz;
+  for (record::Step step; steps.next(step);) {
+    const double t = static_cast<double>(step.row.tick) / rate;
+    if (until >= 0 && t > until) break;
+    for (const tick::Command& command : step.commands) {
+      if (command.kind != tick::CommandKind::move_piece || step.row.tick == 0) continue;
+      const Status there = player.bone_at(static_cast<double>(step.row.tick - 1) / rate, bone);
+      if (!there) return there.error();
+      const auto prepared = store.prepare(bone, command.move);
+      if (prepared && prepared->bricks->hash == command.move.bricks) store.accept(*prepared);
+    }
+  }
+  return store;
+}
+
+}  // namespace burr::sim

@@ -1,0 +1,49 @@
+// sim/move_pieces.h - puts a free piece of bone somewhere else, in a session that stands still.
+//
+//     edit::PieceStore store;
+//     session.run(20, progress);                                   // cut it free
+//     auto moved = sim::move_piece(session, store, {.near = p, .by = {5e-3, 0, 0}}, progress);
+//
+// The command is recorded like any other; a replay makes the same bits. For sessions in the
+// background: sim/piece_mover.h. Thread: that of the session. Frame: world. Units: SI.
+#pragma once
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/edit/piece_store.h"
+#include "burr/math/pose.h"
+#include "burr/record/player.h"
+#include "burr/sim/session.h"
+
+namespace burr::sim {
+
+struct PieceOrder {
+  math::Vec3 near = math::Vec3::Zero();  // the free piece that is nearest to this point
+  math::Vec3 by = math::Vec3::Zero();    // of its centre, from where it lies now [m]
+  math::Vec3 turn =
+      math::Vec3::Zero();  // about its centre, as it lies now: a rotation vector [rad]
+};
+
+// The whole move from where the piece came free, if it goes so much further from where it is now.
+[[nodiscard]] edit::PieceMove further(const edit::PieceStore::Found& piece, const math::Vec3& by,
+                                      const math::Quat& turn);
+
+struct PieceMoved {
+  edit::PieceMove move;
+  double volume = 0;   // as it came free [m^3]
+  double lost = 0;     // by the bone [m^3]; below 0: gained
+  double overlap = 0;  // with other bone; part of lost [m^3]
+};
+
+// Lets the session run until the servo has put the piece down (tenths of a second). Error: no such
+// piece, no way there, no room, or progress was cancelled.
+[[nodiscard]] Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store,
+                                            const PieceOrder& order, Progress& progress);
+
+// The pieces that were moved in a recording, without simulating it, up to `until` [s]; below 0: to
+// its end. bone: as it was opened; afterwards it has a state of some moment. What the servo refused
+// is left out. Error: as Player::bone_at().
+[[nodiscard]] Result<edit::PieceStore> moved_in(record::Player& player, volume::Bone& bone,
+                                                double until = -1);
+
+}  // namespace burr::sim

@@ -1,0 +1,215 @@
+#include "burr/sim/piece_mover.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include "burr/sim/move_pieces.h"
+#include "burr/volume/shared_copy.h"
+#include "burr/volume/volume_of.h"
+
+namespace burr::sim {
+namespace {
+
+constexpr auto kLook = std::chrono::milliseconds(500);
+constexpr int kTries = 20;  // to copy the bone between two writes
+// The recorder has every brick by then: a reader of the recording finds the bone that was copied.
+constexpr auto kRest = std::chrono::milliseconds(150);
+
+// The same piece, perhaps cut a little since, or moved.
+bool same(const volume::Piece& a, const volume::Piece& b) {
+  constexpr double kAlike = 0.03;  // of the volume: resampling changes a little
+  if ((a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all())
+    return true;
+  return std::abs(static_cast<double>(a.voxels - b.voxels)) <=
+         kAlike * static_cast<double>(std::max(a.voxels, b.voxels));
+}
+
+}  // namespace
+
+PieceMover::PieceMover(Session& session)
+    : session_(session), finder_(session.bone()), changed_(session.bone().add_watcher()) {
+  known_ = finder_.pieces();
+  seen_ = seen_before_ = session_.writes();
+  thread_ = std::thread([this] { run(); });
+}
+
+PieceMover::~PieceMover() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void PieceMover::run() {
+  for (;;) {
+    std::optional<edit::PieceMove> move;
+    bool list = false;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait_for(lock, kLook, [this] { return stopping_ || list_wanted_ || move_wanted_; });
+      if (stopping_) return;
+      move = std::exchange(move_wanted_, {});
+      list = std::exchange(list_wanted_, false);
+    }
+    if (move) prepare(*move);
+    if (list) list_pieces();
+    if (!move && !list) notice();
+  }
+}
+
+// Only when the bone rests: two looks that find the same number of writes.
+void PieceMover::notice() {
+  const std::uint64_t writes = session_.writes();
+  const bool rests = writes == std::exchange(seen_before_, writes);
+  if (!rests || writes == seen_) return;
+  if (finder_.update() > 0) return;
+  seen_ = writes;
+  const std::vector<volume::Piece>& now = finder_.pieces();
+  const double voxel = session_.bone().grid().voxel, one = voxel * voxel * voxel;
+  News dust;
+  dust.dust = true;
+  dust.count = 0;
+  std::vector<News> news;
+  for (std::size_t n = 1; n < now.size(); ++n) {
+    const bool known =
+        std::any_of(known_.begin() + std::min<std::ptrdiff_t>(1, std::ssize(known_)), known_.end(),
+                    [&](const volume::Piece& before) { return same(before, now[n]); });
+    if (known) continue;
+    const double size = static_cast<double>(now[n].voxels) * one;
+    if (size < edit::kDust && static_cast<double>(now[n].voxels) <
+                                  edit::kDustOfBone * static_cast<double>(now[0].voxels)) {
+      ++dust.count;
+      dust.volume += size;
+    } else {
+      news.push_back({size, false, 1});
+    }
+  }
+  known_ = now;
+  if (dust.count > 0) news.push_back(dust);
+  const std::lock_guard lock(mutex_);
+  list_.reset();
+  news_.insert(news_.end(), news.begin(), news.end());
+}
+
+Result<PieceMover::Copy> PieceMover::copy() {
+  NoProgress quiet;
+  for (int n = 0; n < kTries; ++n) {
+    Copy copied;
+    copied.writes = session_.writes();
+    std::this_thread::sleep_for(kRest);
+    if (session_.writes() != copied.writes) continue;
+    auto bone = volume::shared_copy(session_.bone(), changed_, quiet);
+    if (!bone) return bone.error();
+    if (session_.writes_begun() != copied.writes) continue;
+    copied.bone = std::move(*bone);
+    return copied;
+  }
+  return error("the bone is being cut; lift the tool, and try again");
+}
+
+void PieceMover::list_pieces() {
+  auto copied = copy();
+  auto pieces = std::make_shared<std::vector<edit::PieceStore::Found>>();
+  edit::PieceStore store;
+  {
+    const std::lock_guard lock(mutex_);
+    store = store_;  // shares the pieces
+  }
+  if (copied) *pieces = store.list(*copied->bone);
+  const std::lock_guard lock(mutex_);
+  if (copied) list_ = std::move(pieces);
+}
+
+void PieceMover::prepare(edit::PieceMove move) {
+  auto copied = copy();
+  edit::PieceStore store;
+  {
+    const std::lock_guard lock(mutex_);
+    store = store_;
+  }
+  std::optional<Result<Prepared>> ready;
+  if (!copied) {
+    ready.emplace(copied.error());
+  } else {
+    move.writes = copied->writes;
+    auto bricks = store.prepare(*copied->bone, move);
+    if (bricks) {
+      move.bricks = bricks->bricks->hash;
+      ready.emplace(Prepared{move, std::move(*bricks)});
+    } else {
+      ready.emplace(bricks.error());
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  ready_ = std::move(ready);
+}
+
+std::vector<PieceMover::News> PieceMover::look() {
+  std::optional<Result<Prepared>> ready;
+  std::vector<News> news;
+  {
+    const std::lock_guard lock(mutex_);
+    ready = std::exchange(ready_, {});
+    news = std::exchange(news_, {});
+  }
+  if (ready && !ready->ok()) {
+    why_ = ready->error().text;
+    state_ = State::refused;
+  } else if (ready) {
+    under_way_ = std::move(**ready);
+    if (session_.move_piece(under_way_->move, under_way_->bricks.bricks)) {
+      state_ = State::sent;
+    } else {
+      why_ = "another piece is being moved";
+      state_ = State::refused;
+    }
+  }
+  if (state_ != State::sent) return news;
+  const tick::MoveState now = session_.move_state();
+  if (now == tick::MoveState::refused) {
+    why_ = "the bone was changed, or there is no room for the piece";
+    state_ = State::refused;
+  } else if (now == tick::MoveState::done) {
+    const double voxel = session_.bone().grid().voxel;
+    overlap_ = static_cast<double>(under_way_->bricks.bricks->overlap) * voxel * voxel * voxel /
+               static_cast<double>(volume::kVoxelUnits);
+    state_ = State::put;
+    const std::lock_guard lock(mutex_);
+    store_.accept(under_way_->bricks);
+    list_.reset();
+  }
+  return news;
+}
+
+void PieceMover::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    list_wanted_ = true;
+  }
+  wake_.notify_all();
+}
+
+std::shared_ptr<const std::vector<edit::PieceStore::Found>> PieceMover::list() const {
+  const std::lock_guard lock(mutex_);
+  return list_;
+}
+
+bool PieceMover::put(const edit::PieceStore::Found& piece, const math::Vec3& by,
+                     const math::Quat& turn) {
+  if (state_ == State::preparing || state_ == State::sent) return false;
+  state_ = State::preparing;
+  {
+    const std::lock_guard lock(mutex_);
+    move_wanted_ = further(piece, by, turn);
+  }
+  wake_.notify_all();
+  return true;
+}
+
+}  // namespace burr::sim

@@ -1,0 +1,109 @@
+// sim/piece_mover.h - free pieces of bone while a session runs: noticed, taken, put down.
+//
+//     PieceMover mover(session);              // before the session starts
+//     session.start();
+//     ... about every picture:
+//     for (const auto& news = mover.look(); ...)           // what came free since the last call
+//     mover.take();                                        // copies the bone; then list() is whole
+//     mover.put(number, by, turn);  mover.state()          // until put or refused
+//
+// A thread of its own follows the bone twice a second, reads only what changed, and not while bone
+// is being cut. The servo never waits for it.
+// Thread: all calls on one thread, the one that commands the session; that thread never waits either.
+// Memory: 2 B per brick of the grid and 0.9 KiB per brick that is not uniform; a copy of the bone
+// while a piece is taken or put down.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "burr/edit/piece_store.h"
+#include "burr/math/pose.h"
+#include "burr/rt/changed_bits.h"
+#include "burr/sim/session.h"
+#include "burr/volume/pieces.h"
+
+namespace burr::sim {
+
+class PieceMover {
+ public:
+  // Registers two watchers of the bone.
+  explicit PieceMover(Session& session);
+  // Stop the session, or this, first: it reads the bone.
+  ~PieceMover();
+  PieceMover(const PieceMover&) = delete;
+  PieceMover& operator=(const PieceMover&) = delete;
+
+  // A piece that has come free since the last call.
+  struct News {
+    double volume = 0;      // [m^3]
+    bool dust = false;      // so small that it is not offered
+    std::size_t count = 1;  // of dust: how many at once
+  };
+  // Also sends what has been prepared, and notes what became of it. Call it in every picture.
+  [[nodiscard]] std::vector<News> look();
+
+  // Asks for the list of pieces that may be moved, with their bones.
+  void take();
+  // nullptr: not copied yet, or the bone has been written since; take() again.
+  [[nodiscard]] std::shared_ptr<const std::vector<edit::PieceStore::Found>> list() const;
+
+  enum class State : std::uint8_t { none, preparing, sent, put, refused };
+  // Puts the piece down, so much further from where it lies now. False: another is on its way.
+  bool put(const edit::PieceStore::Found& piece, const math::Vec3& by, const math::Quat& turn);
+  [[nodiscard]] State state() const { return state_; }
+  // Why it was refused, one sentence.
+  [[nodiscard]] const std::string& why() const { return why_; }
+  // Of the piece that was put down last [m^3].
+  [[nodiscard]] double overlap() const { return overlap_; }
+
+  // While the session stands still: the pieces as they were moved.
+  [[nodiscard]] const edit::PieceStore& store() const { return store_; }
+
+ private:
+  struct Copy {
+    std::unique_ptr<volume::Bone> bone;
+    std::uint64_t writes = 0;
+  };
+  struct Prepared {
+    edit::PieceMove move;
+    edit::PieceStore::Prepared bricks;
+  };
+  void run();
+  void notice();
+  [[nodiscard]] Result<Copy> copy();
+  void list_pieces();
+  void prepare(edit::PieceMove move);
+
+  Session& session_;
+  volume::PieceFinder finder_;
+  rt::ChangedBits& changed_;
+  edit::PieceStore store_;
+  State state_ = State::none;
+  std::string why_;
+  double overlap_ = 0;
+  std::optional<Prepared> under_way_;
+
+  mutable std::mutex mutex_;  // of everything below, and of store_
+  std::condition_variable wake_;
+  bool stopping_ = false, list_wanted_ = false;
+  std::optional<edit::PieceMove> move_wanted_;
+  std::vector<News> news_;
+  std::shared_ptr<const std::vector<edit::PieceStore::Found>> list_;
+  std::optional<Result<Prepared>> ready_;
+
+  // of the thread
+  std::uint64_t seen_ = 0, seen_before_ = 0;  // writes
+  std::vector<volume::Piece> known_;
+  std::thread thread_;
+};
+
+}  // namespace burr::sim

@@ -1,0 +1,116 @@
+// A free piece of bone at the window: taken from the list, moved by keys, put down, undone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
+#include "burr/volume/pieces.h"
+#include "commands/work.h"
+#include "user.h"
+#include "window/mill/make_ready.h"
+#include "window/mill/side_panel.h"
+
+namespace burr::app {
+namespace {
+
+using math::Vec3;
+
+constexpr double kMm = 1e-3, kVoxel = 0.5 * kMm;
+
+// Two blocks, 1 mm apart; the right one is the smaller.
+std::unique_ptr<volume::Bone> two_blocks(const volume::TissueTable& tissues) {
+  const phantom::Depth whole = phantom::box({10 * kMm, 4 * kMm, 4 * kMm});
+  return phantom::bone_from_distance(
+      phantom::box_grid(Vec3(-16, -10, -10) * kMm, Vec3(24, 10, 12) * kMm, kVoxel), tissues,
+      [whole](const Vec3& p) { return std::min(whole(p), std::abs(p.x() - 3 * kMm) - 0.5 * kMm); },
+      1024);
+}
+
+class PiecesWindow : public Window {
+ protected:
+  static Result<Ready> ready() {
+    WorkOptions options;
+    options.volume.source = "block";
+    options.volume.voxel_mm = 1e3 * kVoxel;
+    NoProgress quiet;
+    if (const Status taken = take_case(options); !taken) return taken.error();
+    auto work = open_work(options, quiet);
+    if (!work) return work.error();
+    work->bone = two_blocks(work->bone->tissues());
+    work->work_case.reset();
+    return make_ready(options, std::move(*work), quiet);
+  }
+  void click_take() const {
+    const float u = desk_->ui().unit();
+    click(static_cast<int>((kSideLeft + kSideWide - 50) * u),
+          static_cast<int>((kSideTop + 48 + 16) * u));
+  }
+};
+
+TEST_F(PiecesWindow, AFreePieceIsTakenMovedPutDownAndBroughtBack) {
+  auto made = ready();
+  ASSERT_TRUE(made) << made.error().text;
+  Ready& ready = *made;
+  const std::uint64_t at_start = ready.session->bone().content_hash();
+  const std::size_t softs = ready.scene.soft.size();
+  const auto told = [this](Word says) {
+    return [this, says] { return desk_->status_text.find(word(says)) != std::string::npos; };
+  };
+  const auto has_ghost = [&] { return ready.scene.soft.size() > softs; };
+  mill_by(ready, {{"a picture", looks(3), [] { press(SDLK_m, KMOD_CTRL); }},
+                  {"the frame of the piece", [&] { return ready.scene.rods.size() >= 12; },
+                   [&] { click_take(); }},
+                  {"the ghost", asking_until(has_ghost, [&] { click_take(); }),
+                   [] {
+                     for (int n = 0; n < 6; ++n) press(SDLK_RIGHT);
+                     for (int n = 0; n < 5; ++n) press(SDLK_RIGHT, KMOD_SHIFT);
+                   }},
+                  {"the ghost has moved", looks(5), [] { press(SDLK_RETURN); }},
+                  {"it lies there", told(Word::piece_lies), [] { press(SDLK_u); }},
+                  {"it is back", looks(30), [] { close_window(); }}});
+  EXPECT_EQ(ready.session->bone().content_hash(), at_start) << "undone";
+  EXPECT_EQ(ready.scene.soft.size(), softs) << "the ghost is gone";
+  EXPECT_GT(ready.session->writes(), 0U);
+}
+
+TEST_F(PiecesWindow, WhatIsPutDownLiesWhereItWasShown) {
+  auto made = ready();
+  ASSERT_TRUE(made) << made.error().text;
+  Ready& ready = *made;
+  const std::size_t softs = ready.scene.soft.size();
+  const auto boxed = [](const volume::Bone& bone) {
+    const volume::PieceFinder finder(std::as_const(bone));
+    EXPECT_EQ(finder.pieces().size(), 2U);
+    const volume::Piece& piece = finder.pieces().back();
+    return Vec3(bone.grid().world_from_grid(0.5 * (piece.low + piece.high).cast<double>()));
+  };
+  const Vec3 before = boxed(ready.session->bone());
+  Vec3 right = Vec3::Zero();
+  const auto told = [this](Word says) {
+    return [this, says] { return desk_->status_text.find(word(says)) != std::string::npos; };
+  };
+  mill_by(ready,
+          {{"a picture", looks(3), [] { press(SDLK_m, KMOD_CTRL); }},
+           {"the frame of the piece", [&] { return ready.scene.rods.size() >= 12; },
+            [&] { click_take(); }},
+           {"the ghost",
+            asking_until([&] { return ready.scene.soft.size() > softs; }, [&] { click_take(); }),
+            [&] {
+              right = ready.scene.camera.right();
+              for (int n = 0; n < 6; ++n) press(SDLK_RIGHT);
+              for (int n = 0; n < 5; ++n) press(SDLK_RIGHT, KMOD_SHIFT);
+            }},
+           {"the ghost has moved", looks(5), [] { press(SDLK_RETURN); }},
+           {"it lies there", told(Word::piece_lies), [] { close_window(); }}});
+  const Vec3 by = boxed(ready.session->bone()) - before;
+  EXPECT_LT((by - 3.5 * kMm * right).norm(), kVoxel) << (1e3 * by).transpose();
+}
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,133 @@
+// A segment of a formula-made bone is cut free by a scripted hand, moved along a plan, and measured
+// against the truth.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "burr/device/simulated_hand.h"
+#include "burr/metrics/piece_fit.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
+#include "burr/sim/move_pieces.h"
+#include "burr/sim/session.h"
+#include "burr/volume/pieces.h"
+#include "burr/volume/sample.h"
+#include "burr/volume/volume_of.h"
+#include "burr/workshop/piece_plan.h"
+
+namespace burr::workshop {
+namespace {
+
+using math::Quat;
+using math::Vec3;
+constexpr double kMm = 1e-3, kVoxel = 0.25 * kMm, kBurr = 1 * kMm;
+
+// Strokes across the bar at x = 0, deeper each time, until it is divided.
+device::HandPath across(double deepest) {
+  device::HandPath path;
+  double t = 0;
+  const auto go = [&](double y, double z, double speed, double pedal) {
+    const Vec3 p = Vec3(0, y, z) * kMm;
+    if (!path.points.empty()) t += (p - path.points.back().world_from_tool.p).norm() / speed;
+    path.points.push_back({t, {p, Quat::Identity()}, pedal});
+  };
+  go(-6, 5, 1, 1);
+  double side = 1;
+  for (double z = 1.5; z > deepest; z -= 0.5, side = -side) {
+    go(-6 * side, z, 20 * kMm, 1);
+    go(6 * side, z, 8 * kMm, 1);
+  }
+  go(6 * side, 5, 20 * kMm, 1);
+  go(8, 6, 20 * kMm, 0);
+  path.points.push_back({t + 3600, path.points.back().world_from_tool, 0});
+  return path;
+}
+
+double face(const volume::Bone& bone, const Vec3& p, const Vec3& d) {
+  double before = 0, value = 0;
+  for (double s = 0; s < 40 * kMm; s += kVoxel / 4) {
+    before = std::exchange(value, volume::depth_at(bone, p + s * d));
+    if (s > 0 && before >= 0 && value < 0) return s - kVoxel / 4 * (value / (value - before));
+  }
+  return -1;
+}
+
+TEST(Segment, CutFreeAndMovedByFiveMillimetresItSitsWhereThePlanSays) {
+  NoProgress quiet;
+  // 18 mm to the left of the cut, 10 mm to the right of it; 5 mm wide, 3 mm thick
+  const phantom::Depth bar = phantom::box({14 * kMm, 2.5 * kMm, 1.5 * kMm});
+  auto bone = phantom::bone_from_distance(
+      phantom::box_grid(Vec3(-20, -6, -5) * kMm, Vec3(18, 6, 6) * kMm, kVoxel), {},
+      [bar](const Vec3& p) { return bar(p + Vec3(4 * kMm, 0, 0)); }, 1024);
+  const double whole = volume::volume_of(*bone);
+  sim::SessionSettings settings;
+  settings.servo.burr.radius = kBurr;
+  settings.surface.reserve_blocks = 1 << 14;
+  auto path = across(-3.2);
+  const double seconds = path.points[path.points.size() - 2].t + 0.5;
+  auto made = sim::Session::make(std::move(bone),
+                                 std::make_unique<device::SimulatedHand>(
+                                     std::move(path), device::ArmSettings{.stiffness = INFINITY}),
+                                 settings, quiet);
+  ASSERT_TRUE(made.ok()) << made.error().text;
+  sim::Session& session = **made;
+  session.run(seconds, quiet);
+  const double kerf = session.outcome().ledger.removed;
+  ASSERT_GT(1e9 * kerf, 20) << "the bar was not divided";
+  ASSERT_EQ(volume::PieceFinder(std::as_const(session.bone())).pieces().size(), 2U);
+
+  scenario::Lesson lesson;
+  scenario::PlannedPiece& plan = lesson.pieces.emplace_back();
+  plan.near.at = Vec3(6, 0, 0) * kMm;
+  plan.by = Vec3(5, 0, 0) * kMm;
+  edit::PieceStore store;
+  const auto moved = sim::move_piece(session, store, {plan.near.at, plan.by, Vec3::Zero()}, quiet);
+  ASSERT_TRUE(moved.ok()) << moved.error().text;
+  EXPECT_NEAR(1e9 * moved->volume, 9 * 15, 0.03 * 9 * 15);
+  auto places = store.moved(session.bone());
+  ASSERT_EQ(places.size(), 1U);
+  ASSERT_EQ(plan_of(lesson, *places[0].came_free), &plan);
+  OffPlan off =
+      off_plan(plan, places[0].now * places[0].centre - places[0].centre, places[0].now.q);
+  EXPECT_LT(1e3 * off.off, 0.001);
+  EXPECT_LT(off.turned_off * 180 / M_PI, 0.001);
+  EXPECT_NEAR(1e3 * off.way, 5, 0.001);
+  // the truth: its end was at x = 10
+  EXPECT_NEAR(face(*places[0].piece, Vec3(12, 0, 0) * kMm, Vec3::UnitX()), 3 * kMm, 0.1 * kVoxel);
+  EXPECT_NEAR(face(*places[0].piece, Vec3(12, 0, 0) * kMm, Vec3::UnitY()), 2.5 * kMm, 0.1 * kVoxel);
+  const edit::Ledger ledger = session.outcome().ledger;
+  EXPECT_NEAR(volume::volume_of(session.bone()) + ledger.removed + ledger.moved, whole,
+              1e-6 * whole);
+
+  // and back, 1.3 mm nearer than it was: the kerf of 2 mm is then a gap of 0.7 mm
+  const auto again = sim::move_piece(
+      session, store, {Vec3(11, 0, 0) * kMm, Vec3(-6.3, 0, 0) * kMm, Vec3::Zero()}, quiet);
+  ASSERT_TRUE(again.ok()) << again.error().text;
+  places = store.moved(session.bone());
+  ASSERT_EQ(places.size(), 1U);
+  off = off_plan(plan, places[0].now * places[0].centre - places[0].centre, places[0].now.q);
+  EXPECT_NEAR(1e3 * off.off, 6.3, 0.001);
+  const metrics::PieceFit fit =
+      metrics::piece_fit(*places[0].piece, *store.without_moved(session.bone()));
+  EXPECT_NEAR(1e3 * fit.gap, 0.7, 0.15);
+  EXPECT_NEAR(1e6 * fit.facing, 15, 3);
+  ASSERT_TRUE(fit.has_step);
+  EXPECT_LT(1e3 * fit.step, 0.1);
+
+  // three degrees too far about z
+  const auto turned = sim::move_piece(
+      session, store, {Vec3(5, 0, 0) * kMm, Vec3(6.3, 0, 0) * kMm, Vec3(0, 0, 3 * M_PI / 180)},
+      quiet);
+  ASSERT_TRUE(turned.ok()) << turned.error().text;
+  places = store.moved(session.bone());
+  ASSERT_EQ(places.size(), 1U);
+  off = off_plan(plan, places[0].now * places[0].centre - places[0].centre, places[0].now.q);
+  EXPECT_LT(1e3 * off.off, 0.001);
+  EXPECT_NEAR(off.turned_off * 180 / M_PI, 3, 0.001);
+}
+
+}  // namespace
+}  // namespace burr::workshop
