@@ -310,6 +310,50 @@ TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndFeelsTheBone) {
   EXPECT_FALSE(hd_->touch[1].open);
 }
 
+// With a tool of the rack it cuts while its button is down; its parts are in the picture.
+TEST_F(DeviceWindow, ASecondOneDrivesAToolThatCuts) {
+  {
+    const std::lock_guard lock(hd_->mutex);
+    hd_->touch[1].name = "Left";
+    hd_->touch[1].serial = "T-0002";
+    hd_->touch[1].present = true;
+  }
+  WorkOptions options;
+  options.suction = "touch:Left";
+  options.tool.second = "lindemann";
+  options.volume.source = "block";
+  options.volume.voxel_mm = 0.5;
+  options.hand.device = "touch";
+  NoProgress quiet;
+  auto ready = open_ready(options, quiet);
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  const auto place = work_place(session);
+  ASSERT_TRUE(place);
+  const math::Quat view = view_of_hand(ready->scene.camera);
+  const std::size_t before = ready->scene.rods.size();
+  tick::TickRow second;
+  double deep = 0;
+  // a hand that was lost on a slow machine comes again from free air
+  const auto cuts = [&] {
+    static_cast<void>(session.second_hand()->view().take(second));
+    deep = deep > 26 ? 0 : deep + 0.25;
+    const std::lock_guard lock(hd_->mutex);
+    Eigen::Map<Vec3>(hd_->touch[1].transform.data() + 12) = view.conjugate() * (deep * place->into);
+    hd_->touch[1].buttons = 1;
+    return second.ledger.removed > 1e-10;
+  };
+  mill_by(*ready, {{"the first picture", looks(3), {}},
+                   {"the second tool cuts", cuts, [&] {
+                      EXPECT_EQ(second.tool.number, 0);
+                      EXPECT_GE(ready->scene.rods.size(), before + 2) << "head and shaft";
+                      static_cast<void>(session.view(row_));
+                      EXPECT_EQ(row_.spindle_rad_s, 0) << "the burr stands";
+                      EXPECT_GE(row_.ledger.removed, 0);
+                      press(SDLK_q);
+                    }}});
+}
+
 // The mouse leads the burr, a device the suction: the stop is for both.
 TEST_F(DeviceWindow, TheStopStopsAMouseBesideASuctionToo) {
   WorkOptions options;

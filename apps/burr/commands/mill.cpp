@@ -28,6 +28,7 @@
 #include "commands/picture_size.h"
 #include "commands/piece_words.h"
 #include "commands/recording.h"
+#include "commands/second_options.h"
 #include "commands/tool_options.h"
 #include "commands/volume_words.h"
 
@@ -42,6 +43,7 @@ struct Options {
   std::string path_csv, motion_name, record, picture, arm = "firm", touch = "constraint",
                                                       removal = "energy", mirror;
   ToolOptions tool;
+  SecondOptions second;
   std::vector<double> at_mm, into;
   std::vector<std::string> move_pieces;
   double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
@@ -260,7 +262,8 @@ Status run(const Options& options) {
     orders.push_back(*order);
   }
   const Status possible = check_outputs(
-      {options.volume.source, options.volume.labels, options.volume.materials, options.path_csv},
+      {options.volume.source, options.volume.labels, options.volume.materials, options.path_csv,
+       options.second.path_csv},
       {{"--record", options.record, {".mcap"}}, {"--picture", options.picture, {".png"}}},
       options.force);
   if (!possible) return possible;
@@ -316,6 +319,9 @@ Status run(const Options& options) {
   if (!made) return made.error();
   sim::Session& session = **made;
   if (mirror.on()) session.command(tick::command_for(mirror));
+  if (const Status joined = add_second_hand(options.second, options.tool, seconds, session);
+      !joined)
+    return joined;
 
   Recording recording;
   if (!options.record.empty()) {
@@ -379,6 +385,8 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr, 0.6 to 7")
       ->capture_default_str();
   add_tool_options(*command, options->tool);
+  static_cast<void>(add_second_tool_option(*command, options->tool));
+  add_second_options(*command, options->second);
   command->add_flag("--diamond", options->diamond, "diamond burr: a quarter of the removal rate");
   command->add_option("--rpm", options->rpm, "speed of the spindle; below 0 it turns backwards")
       ->check(CLI::Range(-400000.0, 400000.0))
@@ -409,13 +417,11 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--arm", options->arm, "grip of the simulated hand: firm, light or rigid")
       ->check(CLI::IsMember({"firm", "light", "rigid"}))
       ->capture_default_str();
-  command
-      ->add_option(
-          "--touch", options->touch,
-          "method of touch: constraint (burr's own), shaft (the burr's shaft touches too), or "
-          "another for comparison")
-      ->check(CLI::IsMember(haptics::kMethodNames))
-      ->capture_default_str();
+  auto* touch = command->add_option(
+      "--touch", options->touch,
+      "method of touch: constraint (burr's own), shaft (the burr's shaft touches too), or "
+      "another for comparison");
+  touch->check(CLI::IsMember(haptics::kMethodNames))->capture_default_str();
   command->add_option("--removal", options->removal, "law of removal")
       ->check(CLI::IsMember(edit::kLawNames))
       ->capture_default_str();
@@ -453,7 +459,11 @@ void add(CLI::App& app, Todo& todo) {
   add_results(command, options);
   add_picture_size(*command, options->size);
   add_volume_options(*command, options->volume);
-  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+  command->callback([options, touch, &todo] {
+    // two tools feel each other where all their parts do
+    if (!options->tool.second.empty() && touch->empty()) options->touch = "shaft";
+    todo.work = [options] { return run(*options); };
+  });
 }
 
 const Command command{30, add};

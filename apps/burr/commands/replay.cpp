@@ -23,6 +23,7 @@
 #include "burr/surface/worker.h"
 #include "burr/workshop/opening.h"
 #include "burr/workshop/recording.h"
+#include "burr/workshop/second_tool.h"
 #include "burr/workshop/seen.h"
 #include "burr/workshop/sound_tracker.h"
 #include "burr/workshop/spared.h"
@@ -78,9 +79,12 @@ ViewOptions view_of(const Options& options, const record::Player& player) {
 }
 
 // The tool of a tick. That of a mouse, which has no orientation, is drawn as the window draws it.
-void put_drawn_tool(render::Scene& scene, const tick::TickRow& row, const record::Player& player,
+void put_drawn_tool(render::Scene& scene, const record::Step& step, const record::Player& player,
                     bool contact, render::HeldTool& held, double seconds) {
+  const tick::TickRow& row = step.row;
   workshop::put_tool(scene, row, contact);
+  workshop::put_second_tool(scene, step.second ? &*step.second : nullptr,
+                            record::tool_of(player.info().second));
   if (row.tool.number >= 0) {  // its direction matters to what it cuts: drawn as it was held
     workshop::ToolLooks(player.info().tools).put(scene, row.tool.number);
     return;
@@ -97,8 +101,9 @@ Status draw(const Options& options, record::Player& player) {
   const double t = options.at < 0 ? player.seconds() : options.at;
   Status there = player.bone_at(t, **bone);
   if (!there) return there;
-  auto tick = player.tick_at(t);
-  if (!tick) return tick.error();
+  auto step = player.step_at(t);
+  if (!step) return step.error();
+  const tick::TickRow* tick = &step->row;
 
   const math::Vec3 shaft = tick->hand.world_from_tool.q * math::Vec3::UnitZ();
   render::Scene scene =
@@ -111,7 +116,7 @@ Status draw(const Options& options, record::Player& player) {
   if (const record::View* seen = workshop::view_at(views, tick->tick))
     look_as_seen(scene, workshop::camera_of(*seen), view);
   render::HeldTool held;
-  put_drawn_tool(scene, *tick, player, false, held, 0);
+  put_drawn_tool(scene, *step, player, false, held, 0);
   if (options.effects) {
     render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
     workshop::Traces(player).until(t).show(wound);
@@ -188,11 +193,11 @@ Status film(const Options& options, record::Player& player) {
       traces.until(t).show(wound);
       wound.stain(scene);
     }
-    auto tick = player.tick_at(t);
-    if (!tick) return tick.error();
-    if (const record::View* seen = workshop::view_at(views, tick->tick))
+    auto step = player.step_at(t);
+    if (!step) return step.error();
+    if (const record::View* seen = workshop::view_at(views, step->row.tick))
       look_as_seen(scene, workshop::camera_of(*seen), view);
-    put_drawn_tool(scene, *tick, player, true, held, 1 / options.fps);
+    put_drawn_tool(scene, *step, player, true, held, 1 / options.fps);
     Status written = reel->frame(scene);
     if (!written) return written;
   }

@@ -368,24 +368,24 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--burr-mm", options->work.burr_mm,
                       "diameter of the burr (default: that of the case, otherwise 5)");
   add_tool_options(*command, options->work.tool);
-  command
-      ->add_option_function<std::string>(
-          "--touch",
-          [options](const std::string& name) {
-            options->work.touch = *haptics::method_named(name);
-          },
-          "shaft: the burr's shaft touches the bone too (default: constraint, the head alone)")
-      ->check(CLI::IsMember({"constraint", "shaft"}));
+  auto* touch = command->add_option_function<std::string>(
+      "--touch",
+      [options](const std::string& name) { options->work.touch = *haptics::method_named(name); },
+      "shaft: the burr's shaft touches the bone too (default: constraint, the head alone; with "
+      "--second-tool shaft)");
+  touch->check(CLI::IsMember({"constraint", "shaft"}));
   command->add_flag("--no-sound", options->no_sound, "the window makes no sound");
   command->add_flag("--xr", options->xr, "use a headset through OpenXR")->excludes("--headless");
   command->add_option("--rpm", options->work.rpm,
                       "speed of the spindle (default: that of the case, otherwise 40000)");
   add_force(*command, options->force);
   add_hand_options(*command, options->work.hand);
-  command
-      ->add_option("--suction", options->work.suction,
-                   "a second haptic device for the other hand: a suction tube that feels the bone")
-      ->excludes("--headless");
+  auto* second = command->add_option(
+      "--suction,--second-device", options->work.suction,
+      "a second haptic device for the other hand: a suction tube that feels the bone, or another "
+      "tool with --second-tool");
+  second->excludes("--headless");
+  add_second_tool_option(*command, options->work.tool)->needs(second);
   command
       ->add_option("--publish-as", options->work.told_as,
                    "/NAME: publish the session as a CRTK arm of this name, so that other programs "
@@ -394,7 +394,12 @@ void add(CLI::App& app, Todo& todo) {
   add_identity_options(*command, options->work.identity);
   add_bone_option(*command, options->work.bone);
   add_volume_options(*command, options->work.volume);
-  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+  command->callback([options, touch, &todo] {
+    // two tools feel each other where all their parts do
+    if (!options->work.tool.second.empty() && touch->empty())
+      options->work.touch = haptics::Method::shaft;
+    todo.work = [options] { return run(*options); };
+  });
 }
 
 const Command command{10, add};

@@ -55,6 +55,11 @@ std::string session_text(record::Player& player) {
       text += fmt::format("  the label \"{}\" was accepted in spite of its faults\n",
                           base::printable(name));
   }
+  if (const auto& second = player.info().second)
+    text +=
+        fmt::format("  second hand: {}, {}\n", base::printable(second->device),
+                    second->tools.empty() ? "a suction tube that feels the bone"
+                                          : "tool " + base::printable(second->tools.front().name));
   if (player.has_course())
     text += fmt::format("  ended: {}; {}, {}\n", ending_text(player),
                         counted(player.views().size(), "view"), course_text(player.course()));
@@ -63,7 +68,13 @@ std::string session_text(record::Player& player) {
 }
 
 nlohmann::json session_json(record::Player& player) {
-  nlohmann::json out = {{"identity", nullptr}, {"shaft", nullptr}, {"ending", nullptr}};
+  nlohmann::json out = {
+      {"identity", nullptr}, {"shaft", nullptr}, {"ending", nullptr}, {"second_hand", nullptr}};
+  if (const auto& second = player.info().second) {
+    nlohmann::json& other = out["second_hand"];
+    other = {{"device", second->device}, {"tool", nullptr}};
+    if (!second->tools.empty()) other["tool"] = second->tools.front().name;
+  }
   if (const auto& who = player.info().identity) {
     nlohmann::json& one = out["identity"];
     one = {{"mode", record::word_of(who->mode)},

@@ -23,6 +23,7 @@ Status take_tool(const ToolOptions& options, tick::ServoSettings& settings) {
   if (options.tool.empty() && options.tools.empty()) return fine();
   const auto rack = rack_of(options);
   if (!rack) return rack.error();
+  if (options.tool.empty() && !options.second.empty()) return fine();
   if (options.tool.empty())
     return error(Trouble::usage, "--tools " + options.tools +
                                      ": a session takes one tool of the list; name it with --tool");
@@ -31,6 +32,21 @@ Status take_tool(const ToolOptions& options, tick::ServoSettings& settings) {
   settings.tools = {{tool->name, tool->tool, tool->cutter}};
   settings.tool = 0;
   return fine();
+}
+
+CLI::Option* add_second_tool_option(CLI::App& command, ToolOptions& options) {
+  return command.add_option("--second-tool", options.second,
+                            "a tool of the rack in the second hand, in place of the suction tube");
+}
+
+Result<std::optional<tool::ShapedTool>> second_tool(const ToolOptions& options) {
+  std::optional<tool::ShapedTool> none;
+  if (options.second.empty()) return none;
+  const auto rack = rack_of(options);
+  if (!rack) return rack.error();
+  const auto tool = rack->get(options.second);
+  if (!tool) return tool.error();
+  return std::optional<tool::ShapedTool>({tool->name, tool->tool, tool->cutter});
 }
 
 Result<std::vector<scenario::RackTool>> offer_rack(const ToolOptions& options, double voxel,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace burr::app {
 struct ToolOptions {
   std::string tool;   // of the rack; empty: the round burr
   std::string tools;  // a TOML list of tools of one's own; empty: none
+  // of the rack, in the second hand; empty: a suction tube
+  std::string second = {};
 };
 
 // --tool, --tools
@@ -21,6 +24,11 @@ void add_tool_options(CLI::App& command, ToolOptions& options);
 // The tool that was named, alone in the session's list; without one nothing changes. Error: an
 // unknown name, with those that there are; a mistake in the list; a list without a name.
 [[nodiscard]] Status take_tool(const ToolOptions& options, tick::ServoSettings& settings);
+
+// --second-tool
+CLI::Option* add_second_tool_option(CLI::App& command, ToolOptions& options);
+// none: a suction tube. Error: as take_tool().
+[[nodiscard]] Result<std::optional<tool::ShapedTool>> second_tool(const ToolOptions& options);
 
 // For a session in the window, where the user changes the tool: all tools of the rack whose parts are
 // as thick as a voxel [m] or thicker go into the session's list, and the named one, if any, into the

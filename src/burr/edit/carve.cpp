@@ -122,10 +122,11 @@ CarveKernel carve_kernel() noexcept {
   return {scalar::find_excess, scalar::apply_excess};
 }
 
-Carver::Carver(BoneWriter& writer, const CarveSettings& settings)
+Carver::Carver(BoneWriter& writer, const CarveSettings& settings, std::size_t which)
     : writer_(writer),
       bone_(writer.bone()),
       account_(writer.account()),
+      debt_(account_.debts[which]),
       settings_(settings),
       kernel_(carve_kernel()),
       shapes_(shape_kernel()),
@@ -225,9 +226,9 @@ void Carver::write_off(double asked_units, double dt, int slices) BURR_RT {
   const double debt_timeout =
       settings_.debt_timeout + (slices - 1) * dt;  // until every brick has had its slice
   const double most = debt_timeout * std::max(rate_, asked_units / dt);
-  if (account_.debt > most) {
-    account_.not_cut += account_.debt - most;
-    account_.debt = most;
+  if (debt_ > most) {
+    account_.not_cut += debt_ - most;
+    debt_ = most;
   }
 }
 
@@ -250,15 +251,15 @@ void Carver::carve(const Cut& cut, std::uint32_t& flags) BURR_RT {
   reached_.end(cut.mirror);
   const double asked = cut.energy / reached_.mean_energy() / writer_.unit_m3();
   account_.asked += asked;
-  account_.debt += asked;
+  debt_ += asked;
   account_.energy += cut.energy;
   // every brick loses the same share of its excess, whatever its slice: enough for what is asked
   // until the slice's next turn, and for the debt
-  const double all = excess_of_all_slices(), owed = account_.debt + (slices - 1) * asked;
+  const double all = excess_of_all_slices(), owed = debt_ + (slices - 1) * asked;
   const bool blocked = all < owed;
   const Reached::Done removed = reached_.take(share_of(owed, all, cut.mirror), flags);
   account_.took(removed.hand, removed.image);
-  account_.debt -= static_cast<double>(removed.hand);
+  debt_ -= static_cast<double>(removed.hand);
   margin_ =
       std::clamp(margin_ + (blocked ? settings_.margin_rise : -settings_.margin_fall) * cut.dt,
                  least_margin_, std::max(least_margin_, settings_.margin_most));
@@ -294,9 +295,9 @@ void Carver::idle(double dt) BURR_RT {
   reached_.begin();
   rate_ += (0 - rate_) * std::min(1.0, dt / settings_.debt_timeout);
   const double most = settings_.debt_timeout * rate_;
-  if (account_.debt > most) {
-    account_.not_cut += account_.debt - most;
-    account_.debt = most;
+  if (debt_ > most) {
+    account_.not_cut += debt_ - most;
+    debt_ = most;
   }
 }
 

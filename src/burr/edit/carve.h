@@ -21,6 +21,7 @@
 // construction.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "burr/edit/bone_writer.h"
@@ -68,7 +69,8 @@ struct Cut {
 class Carver {
  public:
   static constexpr int kMostSlices = 64;  // more than the largest burr on the finest voxel needs
-  Carver(BoneWriter& writer, const CarveSettings& settings);
+  // which: of the two hands; each owes for itself, and the account has the sum
+  Carver(BoneWriter& writer, const CarveSettings& settings, std::size_t which = 0);
 
   // Adds to `flags` (bits of rt/flags.h: not cut, reserve, undo full, put off).
   void carve(const Cut& cut, std::uint32_t& flags) BURR_RT;
@@ -107,6 +109,7 @@ class Carver {
   BoneWriter& writer_;
   const volume::Bone& bone_;
   Account& account_;  // the writer's
+  double& debt_;      // of the account: this carver's
   CarveSettings settings_;
   CarveKernel kernel_;
   ShapeKernel shapes_;

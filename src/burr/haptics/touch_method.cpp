@@ -8,4 +8,6 @@ std::optional<Method> method_named(std::string_view name) {
   return std::nullopt;
 }
 
+Touch TouchMethod::felt(const SixTouch&, const math::Pose&) BURR_RT { return {}; }
+
 }  // namespace burr::haptics

@@ -81,6 +81,9 @@ struct Touch {
   bool overflow = false;  // more candidates than the list holds
 };
 
+class SixProxy;
+struct SixTouch;
+
 class TouchMethod {
  public:
   TouchMethod() = default;
@@ -94,6 +97,11 @@ class TouchMethod {
   [[nodiscard]] virtual Touch step(const math::Vec3& hand) BURR_RT = 0;
   // The same with the hand's direction, for methods in which more than a ball touches.
   [[nodiscard]] virtual Touch step_pose(const math::Pose& hand) BURR_RT { return step(hand.p); }
+  // The proxy of all its parts, if they touch: then two tools may be solved together
+  // (six/two_tools.h), and felt() takes the place of step_pose(). nullptr: it has none at present.
+  [[nodiscard]] virtual SixProxy* six() BURR_RT { return nullptr; }
+  // What was felt in this tick, of a method that has six().
+  [[nodiscard]] virtual Touch felt(const SixTouch& six, const math::Pose& hand) BURR_RT;
   // Of the last tick; nullptr: a ball alone touches, and Touch says all.
   [[nodiscard]] virtual const ToolContact* parts() const BURR_RT { return nullptr; }
   // The method's centre of the burr. World [m].

@@ -67,6 +67,7 @@ Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
   player->keyframe_channel_ = file.channel_of(kKeyframes.name);
   player->view_channel_ = file.channel_of(kViews.name);
   player->course_channel_ = file.channel_of(kCourse.name);
+  player->second_channel_ = file.channel_of(kSecond.name);
   if (Status read = player->read_session(); !read.ok()) return read.error();
   player->step_chunks_ = player->chunks_with(player->tick_channel_, player->command_channel_);
   player->change_chunks_ = player->chunks_with(player->change_channel_);
@@ -235,6 +236,13 @@ tool::ToolState Player::assumed_tool(std::uint64_t tick) {
 
 // ---- in order
 
+bool StepCursor::take_second(ByteSpan message) {
+  std::vector<tick::TickRow> rows;
+  if (!decode_ticks(message, rows)) return false;
+  second_.insert(second_.end(), rows.begin(), rows.end());
+  return true;
+}
+
 bool StepCursor::fill() {
   rows_.clear();
   row_ = 0;
@@ -250,6 +258,12 @@ bool StepCursor::fill() {
       if (message.channel == player.tick_channel_ && !decode_ticks(message.data, rows_))
         player_->notice(
             fmt::format("{}: a message of ticks near {:.3f} s is not valid and was ignored",
+                        player.path_, static_cast<double>(message.time_ns) * 1e-9));
+      if (message.channel == player.second_channel_ && player.second_channel_ != 0 &&
+          !take_second(message.data))
+        player_->notice(
+            fmt::format("{}: a message of the second hand near {:.3f} s is not valid and was "
+                        "ignored",
                         player.path_, static_cast<double>(message.time_ns) * 1e-9));
       if (message.channel == player.command_channel_) {
         if (command_from_json(as_text(message.data), command))
@@ -278,6 +292,9 @@ bool StepCursor::next(Step& step) {
     step.commands.clear();
     for (; !commands_.empty() && commands_.front().tick <= row.tick; commands_.pop_front())
       if (commands_.front().tick == row.tick) step.commands.push_back(commands_.front().command);
+    step.second.reset();
+    for (; !second_.empty() && second_.front().tick <= row.tick; second_.pop_front())
+      if (second_.front().tick == row.tick) step.second = second_.front();
     return true;
   }
 }
@@ -349,13 +366,19 @@ std::size_t Player::step_chunk_before(std::uint64_t tick) const {
 }
 
 Result<tick::TickRow> Player::tick_at(double t_s) {
+  auto step = step_at(t_s);
+  if (!step) return step.error();
+  return step->row;
+}
+
+Result<Step> Player::step_at(double t_s) {
   const std::uint64_t tick = tick_of(t_s);
-  std::optional<tick::TickRow> found;
+  std::optional<Step> found;
   for (std::size_t start = step_chunk_before(tick), back = 16;; back *= 2) {
     StepCursor cursor(*this, start, 0);
     Step step;
-    while (cursor.next(step) && step.row.tick <= tick) found = step.row;
-    if (found) return *found;
+    while (cursor.next(step) && step.row.tick <= tick) found = step;
+    if (found) return std::move(*found);
     // a damaged part lies before it: search for the last good tick
     if (start == 0) break;
     start = start > back ? start - back : 0;  // further each time, so that no chunk is read often

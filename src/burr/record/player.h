@@ -36,6 +36,8 @@ namespace burr::record {
 struct Step {
   tick::TickRow row;                    // the inputs of the tick and their results
   std::vector<tick::Command> commands;  // taken at the start of this tick, in order
+  // The other hand in this tick; none: there is none, or the row is missing. What it is: SecondInfo.
+  std::optional<tick::TickRow> second;
   bool gap = false;  // ticks before this one are missing: dropped, or in a damaged stretch
 };
 
@@ -52,6 +54,7 @@ class StepCursor {
   StepCursor(Player& player, std::size_t chunk, std::uint64_t first_tick)
       : player_(&player), chunk_(chunk), first_tick_(first_tick) {}
   bool fill();
+  [[nodiscard]] bool take_second(ByteSpan message);
   Player* player_;
   std::size_t chunk_;  // index into step_chunks_
   std::uint64_t first_tick_;
@@ -59,6 +62,7 @@ class StepCursor {
   std::vector<tick::TickRow> rows_;
   std::size_t row_ = 0;
   std::deque<tick::CommandRow> commands_;
+  std::deque<tick::TickRow> second_;
 };
 
 // Goes through the changed bricks in the order in which the servo recorded them: whole contents.
@@ -130,6 +134,8 @@ class Player {
   [[nodiscard]] Status bone_at(double t_s, volume::Bone& bone);
   // The last tick at or before t: pose, proxy, force ... for a picture.
   [[nodiscard]] Result<tick::TickRow> tick_at(double t_s);
+  // The same with the commands of that tick and the other hand.
+  [[nodiscard]] Result<Step> step_at(double t_s);
 
   // The bone at the start, if the recording holds it (info().embedded).
   [[nodiscard]] Result<std::unique_ptr<volume::Bone>> embedded_bone(
@@ -174,7 +180,7 @@ class Player {
   SessionInfo info_;
   std::vector<std::string> notices_;
   std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
-                keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0;
+                keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0, second_channel_ = 0;
   std::vector<CourseEvent> course_;
   // which chunks hold what; in the order of the file, and so of time
   std::vector<std::size_t> step_chunks_;  // ticks or commands

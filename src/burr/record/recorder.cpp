@@ -72,6 +72,7 @@ class Recorder::WriterThread {
       if (name == kKeyframes.name) keyframe_channel_ = ids[i];
       if (name == kViews.name) view_channel_ = ids[i];
       if (name == kCourse.name) course_channel_ = ids[i];
+      if (name == kSecond.name) second_channel_ = ids[i];
     }
     last_write_ = Clock::now();
     syncer_ = std::thread([this] { sync_run(); });
@@ -110,7 +111,7 @@ class Recorder::WriterThread {
 
   [[nodiscard]] bool crowded() const {
     return half_full(recorder_.ticks_) || half_full(recorder_.commands_) ||
-           half_full(recorder_.bricks_);
+           half_full(recorder_.bricks_) || (recorder_.second_ && half_full(*recorder_.second_));
   }
 
   [[nodiscard]] Status status() const {
@@ -184,6 +185,7 @@ class Recorder::WriterThread {
     while (recorder_.ticks_.pop(tick)) ++account_.dropped_ticks;
     while (recorder_.commands_.pop(command)) ++account_.dropped_commands;
     while (recorder_.bricks_.pop(brick)) ++account_.dropped_bricks;
+    while (recorder_.second_ && recorder_.second_->pop(tick)) ++account_.dropped_ticks;
     notes_.drop_all();
     account_.dropped_notes = notes_.dropped();
   }
@@ -194,6 +196,7 @@ class Recorder::WriterThread {
     const std::uint64_t first = end_tick_;
     take_ticks();
     const std::uint64_t until = last ? std::numeric_limits<std::uint64_t>::max() : end_tick_;
+    take_second(until);
     take_commands(until);
     take_bricks(until);
     take_notes(first, until);
@@ -262,8 +265,7 @@ class Recorder::WriterThread {
   }
 
   void take_ticks() {
-    const auto per_message =
-        static_cast<std::size_t>(std::max(1.0, std::round(recorder_.rate_hz_ * kBatch)));
+    const std::size_t per_message = rows_per_message();
     std::vector<tick::TickRow> rows;
     tick::TickRow row;
     // at most as many as there are now: a servo as fast as this thread would keep it here for ever
@@ -280,6 +282,10 @@ class Recorder::WriterThread {
     }
   }
 
+  [[nodiscard]] std::size_t rows_per_message() const {
+    return static_cast<std::size_t>(std::max(1.0, std::round(recorder_.rate_hz_ * kBatch)));
+  }
+
   // The next row of a tick before `until`; a newer one is kept for the next call.
   template <class Row>
   static bool next_until(rt::Ring<Row>& ring, std::optional<Row>& waiting, std::uint64_t until,
@@ -292,6 +298,24 @@ class Recorder::WriterThread {
     row = *waiting;
     waiting.reset();
     return true;
+  }
+
+  void take_second(std::uint64_t until) {
+    if (!recorder_.second_ || second_channel_ == 0) return;
+    std::vector<tick::TickRow> rows;
+    tick::TickRow row;
+    const auto put_rows = [&] {
+      if (rows.empty()) return;
+      message_.clear();
+      encode_ticks(rows, message_);
+      put(second_channel_, rows.front().tick, message_.span());
+      rows.clear();
+    };
+    while (next_until(*recorder_.second_, waiting_second_, until, row)) {
+      rows.push_back(row);
+      if (rows.size() >= rows_per_message()) put_rows();
+    }
+    put_rows();
   }
 
   void take_commands(std::uint64_t until) {
@@ -394,7 +418,8 @@ class Recorder::WriterThread {
                         account_.dropped_notes);
     };
     const auto before = lost();
-    account_.dropped_ticks = recorder_.ticks_.dropped();
+    account_.dropped_ticks =
+        recorder_.ticks_.dropped() + (recorder_.second_ ? recorder_.second_->dropped() : 0);
     account_.dropped_commands = recorder_.commands_.dropped();
     account_.dropped_bricks = recorder_.bricks_.dropped();
     account_.dropped_notes = notes_.dropped();
@@ -436,7 +461,8 @@ class Recorder::WriterThread {
   std::unique_ptr<McapWriter> writer_;
   std::function<void(const Error&)> on_trouble_;
   std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
-                keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0;
+                keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0,
+                second_channel_ = 0;  // 0: no second hand
   WaitingNotes notes_;
   std::map<std::uint16_t, std::uint32_t> sequence_;
 
@@ -448,6 +474,7 @@ class Recorder::WriterThread {
   std::uint64_t end_tick_ = 0;  // ticks before this one have been taken
   std::optional<tick::CommandRow> waiting_command_;
   std::optional<tick::BrickRow> waiting_brick_;
+  std::optional<tick::TickRow> waiting_second_;
   std::unordered_map<volume::BrickIndex, BrickContent> mirror_;  // state of the bone according to
                                                                  // the file
   std::uint64_t batch_ = 0;
@@ -472,12 +499,14 @@ class Recorder::WriterThread {
 
 // ---- the recorder
 
-Recorder::Recorder(double rate_hz, std::size_t brick_rows, bool realtime)
+Recorder::Recorder(double rate_hz, std::size_t brick_rows, bool realtime, bool second)
     : ticks_(ring_rows(rate_hz)),
       commands_(1024),
       bricks_(brick_rows),
       rate_hz_(rate_hz),
-      realtime_(realtime) {}
+      realtime_(realtime) {
+  if (second) second_.emplace(ring_rows(rate_hz));
+}
 
 Recorder::~Recorder() = default;
 
@@ -522,6 +551,7 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
   std::map<std::string, std::uint16_t> schemas;
   for (std::size_t i = 0; i < kTopics.size(); ++i) {
     const Topic& topic = kTopics[i];
+    if (topic.name == std::string_view(kSecond.name) && !second_) continue;
     if (!schemas.contains(topic.schema_name)) {
       const auto schema = writer->add_schema(topic.schema_name, topic.schema_encoding,
                                              schema_data(topic.schema_name));

@@ -27,6 +27,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "burr/base/result.h"
@@ -57,7 +58,9 @@ class Recorder {
   // rate_hz: of ticks. brick_rows: how many changed bricks may wait. A larger burst within 40 ms
   // does not fit into the ring; keep such a brick marked and push it at a later tick. realtime: the
   // session is paced by the clock, so the pen asks for a priority of its own.
-  explicit Recorder(double rate_hz, std::size_t brick_rows = 8192, bool realtime = false);
+  // second: a second hand takes part.
+  explicit Recorder(double rate_hz, std::size_t brick_rows = 8192, bool realtime = false,
+                    bool second = false);
   // Calls finish() if that was not done; errors are then not reported.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -75,6 +78,8 @@ class Recorder {
   [[nodiscard]] rt::Ring<tick::TickRow>& ticks() BURR_RT { return ticks_; }
   [[nodiscard]] rt::Ring<tick::CommandRow>& commands() BURR_RT { return commands_; }
   [[nodiscard]] rt::Ring<tick::BrickRow>& bricks() BURR_RT { return bricks_; }
+  // Of the second hand, before the tick; nullptr: none takes part.
+  [[nodiscard]] rt::Ring<tick::TickRow>* second() BURR_RT { return second_ ? &*second_ : nullptr; }
 
   // ---- for everybody but the servo, after start(): what the user saw and did. Waits for a lock; a
   // disk error does not show here, but in status(). Error: it cannot be recorded (check() of
@@ -104,6 +109,7 @@ class Recorder {
   rt::Ring<tick::TickRow> ticks_;
   rt::Ring<tick::CommandRow> commands_;
   rt::Ring<tick::BrickRow> bricks_;
+  std::optional<rt::Ring<tick::TickRow>> second_;
   double rate_hz_;
   bool realtime_;
   std::unique_ptr<WriterThread> writer_thread_;

@@ -433,6 +433,15 @@ constexpr const char* kSessionSchema = R"({
    "description": "of the tool, behind the head",
    "properties": {"radius_m": {"type": "number"}, "length_m": {"type": "number"}}
   },
+  "second": {
+   "type": "object",
+   "description": "the other hand; absent: there was none. Its rows are in /second, where tool_number 0 is its tool and the ledger is its own share",
+   "properties": {
+    "numbers": {"type": "object", "description": "settings; units are in the names", "additionalProperties": {"type": "number"}},
+    "device": {"type": "string"},
+    "tools": {"type": "array", "description": "one tool, as in tools; empty: a ball that never cuts"}
+   }
+  },
   "tools": {
    "type": "array",
    "description": "tools other than the round burr that the session could take; lengths in m",

@@ -38,8 +38,10 @@ inline constexpr Topic kKeyframes = {"/bone/keyframes", "protobuf", "burr.Bricks
 // since 2026-11-26; older recordings have neither
 inline constexpr Topic kViews = {"/view", "json", "burr.View", "jsonschema"};
 inline constexpr Topic kCourse = {"/course", "json", "burr.Course", "jsonschema"};
-inline constexpr std::array<Topic, 8> kTopics = {kSession, kTicks,     kCommands, kEvents,
-                                                 kChanges, kKeyframes, kViews,    kCourse};
+// since 2026-11-27, and only where a second hand took part: its rows, as those of /ticks
+inline constexpr Topic kSecond = {"/second", "protobuf", "burr.Ticks", "protobuf"};
+inline constexpr std::array<Topic, 9> kTopics = {kSession,   kTicks, kCommands, kEvents, kChanges,
+                                                 kKeyframes, kViews, kCourse,   kSecond};
 inline constexpr const char* kBoneAttachment = "bone";
 inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
 

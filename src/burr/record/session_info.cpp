@@ -182,6 +182,13 @@ bool get_shaft(const json& object, Shaft& shaft) {
   return shaft.radius >= 0 && shaft.radius < 0.1 && shaft.length >= 0 && shaft.length < 1;
 }
 
+bool get_second(const json& object, SecondInfo& second) {
+  const json& tools = part(object, "tools");
+  return object.is_object() && get_number_object(part(object, "numbers"), second.numbers) &&
+         get_text(object, "device", second.device) && tools.is_array() && tools.size() <= 1 &&
+         (tools.empty() || tools_from_json(tools.dump(), second.tools));
+}
+
 Status check_identity(const SessionInfo& info) {
   if (!info.identity) return fine();
   if (!info.identity->learner.empty())
@@ -307,6 +314,10 @@ Status check(const SessionInfo& info) {
   if (!(info.rate_hz > 0) || !std::isfinite(info.rate_hz))
     return error(Trouble::internal, "recording: the rate must be a positive number of ticks per s");
   if (Status good = check_fields(info.numbers, info.words); !good.ok()) return good;
+  if (info.second)
+    if (Status good = check_fields(info.second->numbers, {{"device", info.second->device}});
+        !good.ok())
+      return good;
   const scenario::Recipe& recipe = info.volume.recipe;
   if (Status good = check_fields({{"voxel_mm", recipe.voxel_mm},
                                   {"iso", recipe.iso.value_or(0)},
@@ -361,6 +372,10 @@ std::string to_json(const SessionInfo& info) {
   if (info.shaft)
     session["shaft"] = {{"radius_m", info.shaft->radius}, {"length_m", info.shaft->length}};
   if (!info.tools.empty()) session["tools"] = json::parse(tools_to_json(info.tools));
+  if (info.second)
+    session["second"] = {{"numbers", number_object(info.second->numbers)},
+                         {"device", info.second->device},
+                         {"tools", json::parse(tools_to_json(info.second->tools))}};
   // names of tissues come from the user's file and may hold anything; broken UTF-8 is replaced
   return session.dump(1, ' ', false, json::error_handler_t::replace);
 }
@@ -399,6 +414,8 @@ Result<SessionInfo> session_from_json(std::string_view text, const std::string& 
     if (!get_shaft(shaft, info.shaft.emplace())) return missing("shaft");
   if (const json& tools = part(object, "tools"); !tools.is_null())
     if (!tools_from_json(tools.dump(), info.tools)) return missing("tools");
+  if (const json& second = part(object, "second"); !second.is_null())
+    if (!get_second(second, info.second.emplace())) return missing("second");
   const json& volume = part(object, "volume");
   if (!volume.is_object()) return missing("volume");
   if (!get_hash(volume, "content_hash", info.volume.content_hash))

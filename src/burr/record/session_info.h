@@ -60,6 +60,18 @@ struct SessionInfo;
 // where the session has a case.
 [[nodiscard]] Result<scenario::Case> case_of(const SessionInfo& info);
 
+// The other hand, where a second device took part.
+struct SecondInfo {
+  Numbers numbers;                      // settings: "radius_m", "stiffness_n_per_m" ...
+  std::string device;                   // its name
+  std::vector<tool::ShapedTool> tools;  // at most one; none: a ball that never cuts
+};
+
+// nullptr: no second hand, or a ball that never cuts.
+[[nodiscard]] inline const tool::Tool* tool_of(const std::optional<SecondInfo>& second) {
+  return second && !second->tools.empty() ? &second->tools.front().tool : nullptr;
+}
+
 struct SessionInfo {
   std::string burr_version;  // filled in by the Recorder
   std::string build;         // likewise: compiler and kind; only the same build replays to the bit
@@ -72,6 +84,7 @@ struct SessionInfo {
   std::optional<Identity> identity;     // none: recorded before 2026-11-26
   std::optional<Shaft> shaft;           // likewise
   std::vector<tool::ShapedTool> tools;  // other than the round burr, that the session could take
+  std::optional<SecondInfo> second;     // none: no second hand, or recorded before 2026-11-27
   bool embedded = false;                // the file holds the bone; filled in by the Recorder
 };
 

@@ -256,6 +256,9 @@ void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
 void Wound::suck(const Vec3& mouth, double radius, double seconds) {
   if (cells_.empty() || !mouth.allFinite() || !(seconds > 0)) return;
   const float left = left_after(seconds, kSuctionTime);
+  // dust that still flies about the tool is drawn in by a mouth beside it, and never settles
+  if (last_ && (mouth - last_->tip).norm() < radius + last_->radius + kSuctionReach)
+    airborne_ *= static_cast<double>(left);
   each_near(mouth, mouth, radius + kSuctionReach, [&](Cell& cell, double d) {
     const auto most =
         static_cast<float>(std::min(1.0, (radius + kSuctionReach - d) / kSuctionReach));

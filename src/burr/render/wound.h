@@ -78,7 +78,7 @@ class Wound {
   };
   void see(const Tick& tick);
   // A suction tube's mouth was at this place for so long: water, dust and blood near it are
-  // removed.
+  // removed, and dust in the air if the tool is near.
   void suck(const math::Vec3& mouth, double radius, double seconds);
   void forget();
   // True: there may be something to show.

@@ -44,6 +44,24 @@ std::optional<edit::PieceStore::Prepared> lay_ready(const edit::PieceStore& piec
   return ready;
 }
 
+// The second hand of the recording.
+struct OtherHand {
+  device::ReplayedHand device;
+  tick::SecondHand hand;
+
+  OtherHand(const RecordedSecond& recorded, tick::Servo& servo)
+      : device(recorded.device), hand(servo.shared(), device, recorded.settings) {}
+  // nullptr: none took part.
+  static Result<std::unique_ptr<OtherHand>> of(const record::Player& player, tick::Servo& servo) {
+    if (!player.info().second) return std::unique_ptr<OtherHand>();
+    const auto recorded = second_of(player.info(), player.path());
+    if (!recorded) return recorded.error();
+    auto other = std::make_unique<OtherHand>(*recorded, servo);
+    servo.set_second(&other->hand);
+    return other;
+  }
+};
+
 }  // namespace
 
 Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bone> bone,
@@ -53,6 +71,8 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
   volume::IsoVertices surface(*bone, recorded->settings.surface, 2, progress);
   device::ReplayedHand hand(recorded->device);
   tick::Servo servo(*bone, surface, hand, recorded->settings.servo);
+  auto other = OtherHand::of(player, servo);
+  if (!other) return other.error();
 
   ReplayOutcome outcome;
   edit::PieceStore& pieces = outcome.pieces;
@@ -63,11 +83,12 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
   tick::BrickRow brick;
   bool has_brick = bricks.next(brick);
   while (!outcome.first_different_tick && steps.next(step)) {
-    if (step.gap || step.row.tick != outcome.ticks) {
+    const bool whole = *other == nullptr || step.second;
+    if (step.gap || step.row.tick != outcome.ticks || !whole) {
       ++outcome.gaps;
       outcome.difference = fmt::format(
-          "ticks before {} are missing in the file; the ticks after them cannot be compared",
-          step.row.tick);
+          "ticks before {} are missing in the file{}; the ticks after them cannot be compared",
+          step.row.tick + (whole ? 0 : 1), whole ? "" : ", of the second hand");
       break;
     }
     std::optional<edit::PieceStore::Prepared> moving;
@@ -77,6 +98,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
       servo.commands().push(command);
     }
     hand.set(step.row.hand);
+    if (*other) (*other)->device.set(step.second->hand);
     const tick::TickRow& row = servo.tick((step.row.contact.flags & rt::kFlagWatchdog) != 0);
     servo.publish();
     if (moving && servo.move_state() != tick::MoveState::refused) {
@@ -88,6 +110,9 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     if (row.hash != step.row.hash || !same_tool) {
       outcome.first_different_tick = row.tick;
       outcome.difference = same_tool ? difference(step.row, row) : "another tool";
+    } else if (*other && (*other)->hand.row().hash != step.second->hash) {
+      outcome.first_different_tick = row.tick;
+      outcome.difference = "second hand: " + difference(*step.second, (*other)->hand.row());
     }
     for (; has_brick && !outcome.first_different_tick && brick.tick <= row.tick;
          has_brick = bricks.next(brick)) {

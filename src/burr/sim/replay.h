@@ -1,5 +1,6 @@
 // sim/replay.h - simulates a recording again and compares every tick's hash and every brick with
 // what was recorded.
+// So are those of a second hand, where one took part.
 //
 // The same build gives the same bits, whichever instruction set the processor has
 // (docs/recording.md). Thread: one.

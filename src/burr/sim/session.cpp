@@ -19,19 +19,22 @@ constexpr std::uint64_t kHeatWait = 1000;
 constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two calls that reserve memory
 
 // A part thinner than a voxel could slip between the points of bone that it touches.
+Status check_thickness(const char* option, const tool::ShapedTool& tool, double voxel) {
+  const double thinnest = tool::thinnest(tool.tool);
+  if (thinnest >= voxel - 1e-9) return fine();
+  return error(
+      Trouble::usage,
+      fmt::format("{} {}: its thinnest part is {:.2f} mm, thinner than a voxel of {:.3f} mm; use "
+                  "--voxel-mm {:.3f} or finer (with --roi around the work, if memory is short)",
+                  option, tool.name, 1e3 * thinnest, 1e3 * voxel,
+                  std::floor(1e6 * thinnest) / 1e3));
+}
+
 Status check_tools(const tick::ServoSettings& servo, double voxel) {
   if (servo.tool < -1 || servo.tool >= static_cast<int>(servo.tools.size()))
     return error(Trouble::internal, "the session has no tool of this number");
-  for (const tool::ShapedTool& tool : servo.tools) {
-    const double thinnest = tool::thinnest(tool.tool);
-    if (thinnest >= voxel - 1e-9) continue;
-    return error(
-        Trouble::usage,
-        fmt::format("--tool {}: its thinnest part is {:.2f} mm, thinner than a voxel of "
-                    "{:.3f} mm; use --voxel-mm {:.3f} or finer (with --roi around the "
-                    "work, if memory is short)",
-                    tool.name, 1e3 * thinnest, 1e3 * voxel, std::floor(1e6 * thinnest) / 1e3));
-  }
+  for (const tool::ShapedTool& tool : servo.tools)
+    if (Status good = check_thickness("--tool", tool, voxel); !good.ok()) return good;
   if (servo.tool < 0) return fine();
   const tool::ShapedTool& tool = servo.tools[static_cast<std::size_t>(servo.tool)];
   if (servo.removal.law != edit::RemovalLaw::energy)
@@ -111,13 +114,17 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
 
 Status Session::add_second_hand(std::unique_ptr<device::Device> device,
                                 const tick::SecondHandSettings& settings) {
-  BURR_CHECK(second_ == nullptr && !running());
+  BURR_CHECK(second_ == nullptr && recorder_ == nullptr && !running());
+  if (settings.tool)
+    if (Status good = check_thickness("--second-tool", *settings.tool, bone_->grid().voxel);
+        !good.ok())
+      return good;
   const Status opened = device->open();
   if (!opened) return opened;
   second_device_ = std::move(device);
   second_device_->stop_pacing();
-  second_ = std::make_unique<tick::SecondHand>(*surface_, *second_device_, settings,
-                                               settings_.servo.rate_hz);
+  second_ = std::make_unique<tick::SecondHand>(servo_->shared(), *second_device_, settings);
+  servo_->set_second(second_.get());
   return fine();
 }
 
@@ -136,7 +143,8 @@ bool Session::move_piece(const edit::PieceMove& move,
 void Session::set_recorder(record::Recorder* recorder) {
   recorder_ = recorder;
   tick::RecorderRings rings;
-  if (recorder != nullptr) rings = {&recorder->ticks(), &recorder->commands(), &recorder->bricks()};
+  if (recorder != nullptr)
+    rings = {&recorder->ticks(), &recorder->commands(), &recorder->bricks(), recorder->second()};
   servo_->set_recorder_rings(rings);
 }
 
@@ -170,7 +178,6 @@ void Session::loop(std::uint64_t ticks) {
     }
     const std::int64_t began = rt::monotonic_ns(), before = rt::thread_cpu_ns();
     const tick::TickRow& row = servo_->tick(lost);
-    if (second_) second_->step(lost, servo_->restoring());
     const std::int64_t took = rt::thread_cpu_ns() - before;
     servo_->note_timing(1e-3 * static_cast<double>(took), 1e-3 * static_cast<double>(time.late_ns));
     servo_->publish();
@@ -204,7 +211,9 @@ void Session::loop(std::uint64_t ticks) {
     const double left = 1 - static_cast<double>(n) / fade;
     device_->write_torque(last_torque * left);
     device_->write_force(last_force * left);
-    if (second_) second_device_->write_force(second_->row().contact.force * left);
+    if (!second_) continue;
+    second_device_->write_torque(second_->row().contact.torque * left);
+    second_device_->write_force(second_->row().contact.force * left);
   }
   while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {  // rows that must still be
                                                                    // recorded

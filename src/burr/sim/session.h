@@ -80,12 +80,15 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // Adds a device for the other hand, which feels the bone and never changes it; nothing of it is
-  // recorded. Opens the device. Call it once, before run() or start(). Error: as its open() says.
+  // Adds a device for the other hand (tick/second_hand.h). Opens the device. Call it once, before
+  // set_recorder(), run() or start(). Error: as its open() says, or a tool with a part thinner than a
+  // voxel.
   [[nodiscard]] Status add_second_hand(std::unique_ptr<device::Device> device,
                                        const tick::SecondHandSettings& settings);
   // nullptr: there is none. Its view() and faults() are doors.
   [[nodiscard]] tick::SecondHand* second_hand() { return second_.get(); }
+  // Of a session with a second hand.
+  [[nodiscard]] const device::Device& second_device() const { return *second_device_; }
 
   // Sends everything that happens to this recorder, which must be started; call it before run() or
   // start(). nullptr: no recorder.

@@ -17,6 +17,17 @@ struct Recorded {
   SessionSettings settings;
   device::DeviceSpec device;
 };
+// Of the other hand; describes it in info.second.
+void describe(const tick::SecondHandSettings& settings, const device::DeviceSpec& device,
+              record::SessionInfo& info);
+struct RecordedSecond {
+  tick::SecondHandSettings settings;
+  device::DeviceSpec device;
+};
+// Call it where info.second is there. Error: as settings_of().
+[[nodiscard]] Result<RecordedSecond> second_of(const record::SessionInfo& info,
+                                               const std::string& where);
+
 // Error: a number that a replay needs is missing.
 [[nodiscard]] Result<Recorded> settings_of(const record::SessionInfo& info,
                                            const std::string& where);

@@ -16,14 +16,14 @@ constexpr double kCarried = 0.4;  // of the tick rate: what a force can be made 
 }  // namespace
 
 Cutting::Cutting(const volume::Bone& bone, edit::UndoStore& undo, edit::BoneWriter& writer,
-                 const Controls& controls, const Hand& hand)
+                 const Controls& controls, const Hand& hand, std::size_t which)
     : bone_(bone),
       undo_(undo),
       controls_(controls),
       settings_(controls.settings),
       hand_(hand),
       dt_(1.0 / controls.settings.rate_hz),
-      carver_(writer, controls.settings.carve),
+      carver_(writer, controls.settings.carve, which),
       brush_(writer),
       chips_(bone),
       vibration_({.device_gain = controls.settings.vibration_gain}) {
@@ -140,7 +140,7 @@ bool Cutting::works(double push, bool may) BURR_RT {
   }
   carver_.idle(dt_);
   untouched_ += dt_;
-  if (may && undo_.stroke_open() && untouched_ > settings_.stroke_pause)
+  if (may && undo_.stroke_open() && rests_long() && (beside_ == nullptr || beside_->rests_long()))
     undo_.end_stroke(carver_.removed_units());
   return false;
 }

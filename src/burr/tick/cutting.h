@@ -7,6 +7,7 @@
 // Thread: servo. Frame: world. Units: SI. Memory: taken at construction.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "burr/edit/bone_writer.h"
@@ -29,8 +30,12 @@ namespace burr::tick {
 
 class Cutting {
  public:
+  // which: 0 the first hand's, 1 the second's
   Cutting(const volume::Bone& bone, edit::UndoStore& undo, edit::BoneWriter& writer,
-          const Controls& controls, const Hand& hand);
+          const Controls& controls, const Hand& hand, std::size_t which = 0);
+  // The other hand's, if it cuts too: a stroke is over when neither has touched for a while. Before
+  // the session.
+  void set_beside(const Cutting* other) { beside_ = other; }
 
   [[nodiscard]] tool::Spindle& spindle() BURR_RT { return spindle_; }
   [[nodiscard]] const tool::Spindle& spindle() const BURR_RT { return spindle_; }
@@ -86,6 +91,7 @@ class Cutting {
   void place_body(edit::Cut& cut) BURR_RT;
   [[nodiscard]] const volume::Tissue& tissue_at(const math::Vec3& world) const BURR_RT;
   [[nodiscard]] bool works(double push, bool may) BURR_RT;
+  [[nodiscard]] bool rests_long() const BURR_RT { return untouched_ > settings_.stroke_pause; }
   void brush(const edit::Cut& cut, std::uint32_t& flags) BURR_RT;
 
   const volume::Bone& bone_;
@@ -93,6 +99,7 @@ class Cutting {
   const Controls& controls_;
   const ServoSettings& settings_;  // of the controls
   const Hand& hand_;
+  const Cutting* beside_ = nullptr;
   double dt_;
   edit::Carver carver_;
   edit::Brush brush_;

@@ -60,6 +60,14 @@ class Hand {
   // False: not engaged, and the tool is not in free air.
   [[nodiscard]] bool engage() BURR_RT;
   void feel() BURR_RT;
+  // Instead of feel(): what was found together with another tool (haptics/six/two_tools.h).
+  void feel(const haptics::SixTouch& six) BURR_RT {
+    touch_ = method_->felt(six, state_.world_from_tool);
+    parts_ = method_->parts();
+  }
+  // For it, after engage(); nullptr: this hand's tool has no such proxy, or hovers.
+  [[nodiscard]] haptics::SixProxy* six() BURR_RT { return hovers() ? nullptr : method_->six(); }
+  [[nodiscard]] double stiffness() const BURR_RT { return force_.stiffness; }
   // Instead of feel(): the hand feels a spring to the tool, which others hold.
   void feel_held_tool() BURR_RT;
   // Instead of all these: no usable reading.

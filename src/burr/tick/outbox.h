@@ -29,6 +29,7 @@ struct RecorderRings {
   rt::Ring<TickRow>* ticks = nullptr;
   rt::Ring<CommandRow>* commands = nullptr;
   rt::Ring<BrickRow>* bricks = nullptr;
+  rt::Ring<TickRow>* second = nullptr;  // of the second hand; nullptr: there is none
 };
 
 class Outbox {
@@ -57,6 +58,10 @@ class Outbox {
   // ---- after the tick
   // The finished row, and the bricks whose turn it is. with_tissue: their tissues as well.
   void publish(const TickRow& row, bool with_tissue) BURR_RT;
+  // Before it: the row of the second hand of this tick.
+  void publish_second(const TickRow& row) BURR_RT {
+    if (recorder_rings_.second != nullptr) recorder_rings_.second->push(row);
+  }
   // All bricks that are waiting.
   void flush_bricks(std::uint64_t tick, bool with_tissue) BURR_RT;
 

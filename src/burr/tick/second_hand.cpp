@@ -3,14 +3,17 @@
 #include <algorithm>
 
 #include "burr/rt/flags.h"
+#include "burr/tick/tick_hash.h"
 
 namespace burr::tick {
 namespace {
 
 using math::Vec3;
 
-// of the proxy in a tick: the first hand's tick is the one that must not be late
+// of a ball's proxy in a tick: the first hand's tick is the one that must not be late
 constexpr int kMoves = 6;
+constexpr double kLever = 60e-3;  // of the spring of turning, as of the first hand's tools    [m]
+constexpr double kRecovery = 5;   // of bone that grew under the tool pushes it out     [voxel/s]
 
 SecondHandSettings capped(SecondHandSettings settings, const device::DeviceSpec& spec,
                           double voxel) {
@@ -20,41 +23,160 @@ SecondHandSettings capped(SecondHandSettings settings, const device::DeviceSpec&
   return settings;
 }
 
+// The session's own laws, with this hand's tool and force.
+Controls controls_of(const Controls& session, const SecondHandSettings& settings) {
+  Controls own = session;
+  ServoSettings& servo = own.settings;
+  servo.tools.clear();
+  servo.tool = -1;
+  if (settings.tool) {
+    servo.tools.push_back(*settings.tool);
+    servo.tool = 0;
+  }
+  servo.burr = {};
+  servo.burr.radius = settings.radius;
+  servo.mode = ToolMode::cut;
+  servo.removal.law = edit::RemovalLaw::energy;  // the others are for round burrs
+  servo.force = settings.force;
+  servo.limit = settings.limit;
+  return own;
+}
+
+haptics::ProxySettings proxy_settings(const SecondHandSettings& settings, double rate_hz) {
+  return {.radius = settings.radius,
+          .friction_static = settings.friction,
+          .friction_kinetic = settings.friction,
+          .wedge = 0,
+          .slip = settings.slip_m_s / rate_hz,
+          .max_moves = kMoves,
+          .push_out_speed = kRecovery / rate_hz};
+}
+
+Vec3 nowhere(const volume::IsoVertices& surface) {
+  return surface.bone().grid().world_from_grid(Vec3::Constant(-1e4));
+}
+
+std::unique_ptr<haptics::ToolTouch> touch_of(const volume::IsoVertices& surface,
+                                             const SecondHandSettings& settings, double rate_hz) {
+  if (!settings.tool) return nullptr;
+  haptics::ProxySettings proxy;
+  proxy.slip = settings.slip_m_s / rate_hz;
+  proxy.push_out_speed = kRecovery / rate_hz;
+  return std::make_unique<haptics::ToolTouch>(surface, settings.tool->tool, proxy, kLever,
+                                              math::Pose{nowhere(surface), math::Quat::Identity()});
+}
+
 }  // namespace
 
-SecondHand::SecondHand(const volume::IsoVertices& surface, device::Device& device,
-                       const SecondHandSettings& settings, double rate_hz)
-    : settings_(capped(settings, device.spec(), surface.bone().grid().voxel)),
-      proxy_(surface,
-             {.radius = settings_.radius,
-              .friction_static = settings_.friction,
-              .friction_kinetic = settings_.friction,
-              .wedge = 0,
-              .slip = settings_.slip_m_s / rate_hz,
-              .max_moves = kMoves,
-              .push_out_speed = 5 / rate_hz},
-             surface.bone().grid().world_from_grid(Vec3::Constant(-1e4))),
-      hand_(device, proxy_, settings_.force,
-            {.rate_hz = rate_hz,
+SecondHand::SecondHand(const Shared& shared, device::Device& device,
+                       const SecondHandSettings& settings)
+    : settings_(capped(settings, device.spec(), shared.surface.bone().grid().voxel)),
+      session_(shared.controls),
+      writer_(shared.writer),
+      controls_(controls_of(shared.controls, settings_)),
+      proxy_(shared.surface, proxy_settings(settings_, controls_.settings.rate_hz),
+             nowhere(shared.surface)),
+      tool_(touch_of(shared.surface, settings_, controls_.settings.rate_hz)),
+      hand_(device, proxy_, controls_.settings.force,
+            {.rate_hz = controls_.settings.rate_hz,
              .velocity_filter_hz = settings_.velocity_filter_hz,
-             .limit = settings_.limit}) {}
+             .limit = settings_.limit,
+             .guarded = tool_ != nullptr && controls_.settings.guarded,
+             .guard_slack = controls_.settings.guard_slack}) {
+  if (!tool_) return;
+  hand_.use(*tool_, tool_.get());
+  cutting_ = std::make_unique<Cutting>(shared.surface.bone(), shared.undo, shared.writer, controls_,
+                                       hand_, 1);
+  cutting_->set_beside(&shared.beside);
+}
 
-void SecondHand::step(bool lost, bool parted) BURR_RT {
+void SecondHand::read(bool lost, bool parted) BURR_RT {
   row_ = {};
   row_.tick = next_tick_++;
-  std::uint32_t& flags = row_.contact.flags;
-  const bool usable = hand_.read(lost, flags);
+  lost_ = lost;
+  usable_ = hand_.read(lost, row_.contact.flags);
   row_.hand = hand_.state();
   if (parted) hand_.lift();
-  if (usable) {
-    hand_.filter_velocity();
-    if (hand_.engage()) hand_.feel();
-  } else {
+  controls_.shed = session_.shed;
+  controls_.mirror = session_.mirror;
+  controls_.irrigated = session_.irrigated;
+  if (cutting_) cutting_->turn(usable_ ? hand_.state().pedal : 0);
+}
+
+bool SecondHand::will_feel() BURR_RT {
+  if (!usable_) {
     hand_.skip_touch();
+    return false;
   }
-  hand_.report(hand_.send(hand_.wanted(), flags), row_.contact);
+  hand_.filter_velocity();
+  return hand_.engage();
+}
+
+void SecondHand::feel_beside(Hand& first, bool feels) BURR_RT {
+  const bool feels_too = will_feel();
+  if (!feels || !feels_too) two_.part();
+  if (feels && feels_too && feel_together(first)) return;
+  if (feels) first.feel();
+  if (feels_too) hand_.feel();
+}
+
+bool SecondHand::feel_together(Hand& first) BURR_RT {
+  haptics::SixProxy *a = first.six(), *b = hand_.six();
+  if (a == nullptr || b == nullptr) {
+    two_.part();
+    return false;
+  }
+  const haptics::HeldTool one = {*a, first.state().world_from_tool, first.stiffness()},
+                          other = {*b, hand_.state().world_from_tool, hand_.stiffness()};
+  if (!two_.near(one, other)) return false;
+  haptics::SixTouch touch, touch_too;
+  two_.step(one, other, touch, touch_too);
+  first.feel(touch);
+  hand_.feel(touch_too);
+  return true;
+}
+
+void SecondHand::send() BURR_RT {
+  std::uint32_t& flags = row_.contact.flags;
+  if (!cutting_) {
+    sent_ = hand_.send(hand_.wanted(), flags);
+    return;
+  }
+  const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost_ || !usable_, flags);
+  const Vec3 spinning = cutting_->drag(guarded) + cutting_->vibration();
+  const Vec3 torque = usable_ ? cutting_->torque() : Vec3(Vec3::Zero());
+  sent_ = hand_.send(guarded + spinning, torque, flags);
+  touched_ = hand_.touch_part(sent_.force, spinning);
+}
+
+// What the account gains meanwhile is this hand's doing.
+void SecondHand::cut(bool may, std::uint64_t path_mark) BURR_RT {
+  if (!cutting_) return;
+  const edit::Account before = writer_.account();
+  cutting_->cut(row_.tick, touched_, may, path_mark, row_.contact.flags);
+  const edit::Account& now = writer_.account();
+  own_.asked += now.asked - before.asked;
+  own_.not_cut += now.not_cut - before.not_cut;
+  own_.removed += now.removed - before.removed;
+  own_.energy += now.energy - before.energy;
+  own_.debts[1] = now.debts[1];
+}
+
+void SecondHand::finish() BURR_RT {
+  hand_.report(sent_, row_.contact);
+  row_.tool.radius = settings_.radius;
+  row_.tool.mode = cutting_ ? ToolMode::cut : ToolMode::touch;
+  row_.tool.number = controls_.settings.tool;
+  row_.ledger = own_.ledger(writer_.unit_m3());
+  if (cutting_) {
+    if (cutting_->spindle().stalled()) row_.contact.flags |= rt::kFlagStalled;
+    row_.tool.full_speed = cutting_->spindle().full_speed;
+    row_.spindle_rad_s = cutting_->spindle().speed();
+    row_.cutting_nm = cutting_->now().torque;
+    row_.cutting_w = cutting_->now().power;
+  }
+  row_.hash = last_hash_ = tick_hash(row_, last_hash_);
   hand_.faults().note(row_);
-  view_.publish(row_);
 }
 
 }  // namespace burr::tick

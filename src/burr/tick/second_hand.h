@@ -1,58 +1,107 @@
-// tick/second_hand.h - another device in the other hand, which feels the bone and never changes it:
-// a suction tube, a probe.
+// tick/second_hand.h - another device in the other hand: with a suction tube, which feels the bone and
+// never changes it, or with any tool of the rack, which touches and cuts as the first hand's does.
 //
-// A ball at its tip rests on the bone as the burr does, with its own proxy, law of force and safety
-// layer (hand.h). It is stepped in the servo's tick after the first hand's force has gone out, and
-// nothing of the bone or of the first hand depends on it: a recording replays to the bit without
-// it. The two tools do not feel each other.
+//     no tool   a ball at the tip rests on the bone by the proxy of three unknowns; nothing is cut
+//     a tool    the proxy of six unknowns (haptics/six/tool_touch.h), and a carver of its own; it and
+//               the first hand's tool feel each other (haptics/six/two_tools.h), unless that is felt by
+//               the head alone
 //
-// Thread: step() on the servo; view(), faults() one reader each, any. Frame: world. Memory: taken
-// at construction. Cost: docs/realtime.md.
+// It has its own proxy, law of force, guard and safety layer (hand.h). The servo takes each step of a
+// tick with it directly after the first hand's, so that the same readings give the same bits. What it
+// cuts is in the ledger and the strokes of the session; what it cut alone is in its own row.
+//
+// Thread: servo; view(), faults() one reader each, any. Frame: world. Memory: taken at construction.
+// Cost: docs/realtime.md.
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 
 #include "burr/device/device.h"
+#include "burr/edit/account.h"
+#include "burr/edit/bone_writer.h"
+#include "burr/edit/undo.h"
 #include "burr/haptics/force_law.h"
 #include "burr/haptics/proxy.h"
 #include "burr/haptics/safety/limit.h"
+#include "burr/haptics/six/tool_touch.h"
+#include "burr/haptics/six/two_tools.h"
 #include "burr/rt/latest.h"
 #include "burr/rt/rt.h"
+#include "burr/tick/cutting.h"
 #include "burr/tick/fault_report.h"
 #include "burr/tick/hand.h"
 #include "burr/tick/rows.h"
+#include "burr/tick/settings.h"
+#include "burr/tool/shaped_tool.h"
+#include "burr/volume/iso_vertices.h"
 
 namespace burr::tick {
 
 struct SecondHandSettings {
   double radius = 1.5e-3;        // of the ball at its tip, at least two voxels            [m]
   haptics::ForceSettings force;  // capped by the device's own
-  double friction = 0.1;         // of metal on wet bone: hardly any                       [-]
+  double friction = 0.1;         // of metal on wet bone: hardly any; of a ball             [-]
   double slip_m_s = 30e-3;       // as ServoSettings::slip_m_s                           [m/s]
   double velocity_filter_hz = 100;
   haptics::LimitSettings limit;
+  std::optional<tool::ShapedTool> tool = {};  // none: a ball that never cuts
 };
 
 class SecondHand {
  public:
+  // What it shares with the first hand.
+  struct Shared {
+    const volume::IsoVertices& surface;
+    edit::UndoStore& undo;
+    edit::BoneWriter& writer;
+    const Controls& controls;  // of the session; laws, mirror and load hold for both hands
+    const Cutting& beside;     // of the first hand
+  };
   // device: open
-  SecondHand(const volume::IsoVertices& surface, device::Device& device,
-             const SecondHandSettings& settings, double rate_hz);
+  SecondHand(const Shared& shared, device::Device& device, const SecondHandSettings& settings);
 
-  // One tick. lost: as Servo::tick(). parted: bone may come back where it is (an undo): the force
-  // is released until the hand is in free air again.
-  void step(bool lost, bool parted) BURR_RT;
+  // ---- the steps of a tick
+  // lost: as Servo::tick(). parted: bone may come back where it is (an undo): the force is released
+  // until the hand is in free air again.
+  void read(bool lost, bool parted) BURR_RT;
+  // Touch of both hands: each alone, or together where their tools are near. feels: the first hand
+  // feels in this tick, and has not yet.
+  void feel_beside(Hand& first, bool feels) BURR_RT;
+  void send() BURR_RT;
+  // may, path_mark: as Cutting::cut()
+  void cut(bool may, std::uint64_t path_mark) BURR_RT;
+  void finish() BURR_RT;
+  void publish() BURR_RT { view_.publish(row_); }
 
-  // Its hand and contact, as the servo's row has the burr's; the rest is as it begins.
+  // Of the last tick. Its ledger has what this hand alone asked for and removed; its tool's number is
+  // 0, or -1 for a ball.
   [[nodiscard]] const TickRow& row() const BURR_RT { return row_; }
   [[nodiscard]] rt::Latest<TickRow>& view() BURR_RT { return view_; }
   [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return hand_.faults().reports(); }
+  // nullptr: it never cuts.
+  [[nodiscard]] const Cutting* cutting() const BURR_RT { return cutting_.get(); }
+  [[nodiscard]] const SecondHandSettings& settings() const { return settings_; }
 
  private:
+  [[nodiscard]] bool will_feel() BURR_RT;
+  [[nodiscard]] bool feel_together(Hand& first) BURR_RT;
+
   SecondHandSettings settings_;
+  const Controls& session_;
+  edit::BoneWriter& writer_;
+  Controls controls_;  // this hand's
   haptics::Proxy proxy_;
+  std::unique_ptr<haptics::ToolTouch> tool_;  // none: a ball
   Hand hand_;
-  std::uint64_t next_tick_ = 0;
+  std::unique_ptr<Cutting> cutting_;  // none: it never cuts
+  haptics::TwoTools two_;
+  edit::Account own_;  // what this hand did of the session's account
+  bool lost_ = false, usable_ = false;
+  math::Vec3 touched_ = math::Vec3::Zero();  // force of touch that was really sent [N]
+  Hand::Sent sent_;
+  std::uint64_t next_tick_ = 0, last_hash_ = 0;
   TickRow row_;
   rt::Latest<TickRow> view_;
 };

@@ -44,6 +44,11 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
   hand_.use(touch_by_.now(), touch_by_.tool());
 }
 
+void Servo::set_second(SecondHand* second) {
+  second_ = second;
+  cutting_.set_beside(second != nullptr ? second->cutting() : nullptr);
+}
+
 const TickRow& Servo::tick(bool lost) BURR_RT {
   row_ = {};
   row_.tick = next_tick_++;
@@ -55,9 +60,15 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   orders_.take(row_.tick, flags);
   note_tool();
   cutting_.turn(usable ? hand_.state().pedal : 0);
+  if (second_ != nullptr) second_->read(lost, restore_.active());
 
   // touch
-  feel(usable);
+  const bool feels = will_feel(usable);
+  if (second_ == nullptr) {
+    if (feels) hand_.feel();
+  } else {
+    second_->feel_beside(hand_, feels);
+  }
 
   // force, bounded, to the hand
   const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost || !usable, flags);
@@ -65,12 +76,10 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   const Vec3 torque = usable ? cutting_.torque() : Vec3(Vec3::Zero());
   const Hand::Sent sent = hand_.send(guarded + spinning, torque, flags);
   const Vec3 touched = hand_.touch_part(sent.force, spinning);
+  if (second_ != nullptr) second_->send();
 
   // then the bone
-  cutting_.cut(row_.tick, touched, !restore_.active(), restore_.path_mark(), flags);
-  // twice as much changes in a mirror, and the hand's side must not be later for it
-  surface_.refresh((controls_.mirror.on() ? 2 : 1) * kRefreshRate * dt_ /
-                   slices_of(controls_.shed));
+  cut(touched);
   outbox_.note_heat(row_.tick, cutting_);
   restore_.remember_path();
 
@@ -78,26 +87,47 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   outbox_.note_released(hand_.released());
   finish_row(sent);
   hand_.faults().note(row_);
+  if (second_ != nullptr) second_->finish();
   return row_;
 }
 
-void Servo::feel(bool usable) BURR_RT {
+void Servo::cut(const Vec3& touched) BURR_RT {
+  const bool may = !restore_.active();
+  cutting_.cut(row_.tick, touched, may, restore_.path_mark(), row_.contact.flags);
+  if (second_ != nullptr) second_->cut(may, restore_.path_mark());
+  // twice as much changes in a mirror or by a second tool, and the hand's side must not be later
+  // for it
+  const bool two = second_ != nullptr && second_->cutting() != nullptr;
+  surface_.refresh((controls_.mirror.on() ? 2 : 1) * (two ? 2 : 1) * kRefreshRate * dt_ /
+                   slices_of(controls_.shed));
+}
+
+void Servo::publish() BURR_RT {
+  if (second_ != nullptr) {
+    second_->publish();
+    outbox_.publish_second(second_->row());
+  }
+  outbox_.publish(row_, tissue_changes());
+}
+
+// The steps before touch; false: the hand feels nothing, or what restore.h gives it.
+bool Servo::will_feel(bool usable) BURR_RT {
   if (!usable) {
     hand_.skip_touch();
-    return;
+    return false;
   }
   hand_.filter_velocity();
   if (restore_.active()) {
     restore_.step(row_.contact.flags);
     row_.contact.flags |= rt::kFlagRestoring;
-    return;
+    return false;
   }
   if (hand_.hovers()) hand_.set_down();
-  if (!hand_.engage()) return;
+  if (!hand_.engage()) return false;
   const double mu = cutting_.friction();
   touch_by_.now().set_friction(mu, controls_.settings.kinetic_share * mu);
   touch_by_.show(row_.tick);
-  hand_.feel();
+  return true;
 }
 
 // What is in the hand after this tick's commands, obeyed or refused.

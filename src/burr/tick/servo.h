@@ -8,6 +8,8 @@
 //     cutting.h   then cut the bone
 //     outbox.h    then give row and bricks to the others
 //
+// A second hand (second_hand.h), if there is one, takes each of these steps directly after the first.
+//
 // A pure function of (bone, hand, buttons, commands, lost): no clock, no random number, so that a
 // recording replays to the bit. Thread: tick() on one thread, the servo's, the only writer of the
 // bone. Memory: taken at construction. Cost: docs/realtime.md.
@@ -31,6 +33,7 @@
 #include "burr/tick/outbox.h"
 #include "burr/tick/restore.h"
 #include "burr/tick/rows.h"
+#include "burr/tick/second_hand.h"
 #include "burr/tick/settings.h"
 #include "burr/tick/shed.h"
 #include "burr/tick/touch_methods.h"
@@ -63,6 +66,12 @@ class Servo {
   [[nodiscard]] bool released() const BURR_RT { return outbox_.released(); }
   // before the session
   void set_recorder_rings(const RecorderRings& rings) { outbox_.set_recorder_rings(rings); }
+  // The other hand, which takes part in every tick from the next one on; made with shared(). Before
+  // the session. It must outlive the last tick.
+  void set_second(SecondHand* second);
+  [[nodiscard]] SecondHand::Shared shared() {
+    return {surface_, undo_, writer_, controls_, cutting_};
+  }
   // Gives every row to one more reader, on a thread of its own; before the session. nullptr: none.
   void set_watch(rt::Latest<TickRow>* watch) { outbox_.set_watch(watch); }
   void set_heat(thermal::Worker* heat) { outbox_.set_heat(heat); }  // before the session
@@ -71,7 +80,7 @@ class Servo {
   // the truth.
   void note_timing(double took_us, double late_us) BURR_RT;
   // Hands the finished row to the recorder and the view.
-  void publish() BURR_RT { outbox_.publish(row_, tissue_changes()); }
+  void publish() BURR_RT;
 
   // What the last tick had to do, in counts that are the same on every machine.
   struct Work {
@@ -106,7 +115,8 @@ class Servo {
   [[nodiscard]] bool tissue_changes() const BURR_RT {
     return cutting_.deposited() || restore_.has_moved();
   }
-  void feel(bool usable) BURR_RT;
+  [[nodiscard]] bool will_feel(bool usable) BURR_RT;
+  void cut(const math::Vec3& touched) BURR_RT;
   void note_tool() BURR_RT;
   void finish_row(const Hand::Sent& sent) BURR_RT;
 
@@ -123,6 +133,7 @@ class Servo {
   Restore restore_;
   Outbox outbox_;
   Orders orders_;
+  SecondHand* second_ = nullptr;
   TickRow row_;
   std::uint64_t next_tick_ = 0, last_hash_ = 0;
 };

@@ -80,6 +80,8 @@ Result<std::unique_ptr<record::Recorder>> record(sim::Session& session, const st
                                                  std::function<void(const Error&)> on_trouble) {
   record::SessionInfo info;
   sim::describe(session.settings(), session.hand().spec(), info);
+  tick::SecondHand* second = session.second_hand();
+  if (second != nullptr) sim::describe(second->settings(), session.second_device().spec(), info);
   info.words["motion"] = about.motion;
   if (about.spared) write_spared(*about.spared, info);
   if (about.work_case) info.work_case = record::case_info(*about.work_case);
@@ -99,8 +101,8 @@ Result<std::unique_ptr<record::Recorder>> record(sim::Session& session, const st
   info.volume.has_intensity = bone.has_intensity();
   info.volume.format = about.format;
   info.volume.recipe = scenario::without_paths(about.recipe);
-  auto recorder =
-      std::make_unique<record::Recorder>(info.rate_hz, kBrickRows, session.settings().realtime);
+  auto recorder = std::make_unique<record::Recorder>(
+      info.rate_hz, kBrickRows, session.settings().realtime, second != nullptr);
   const Status started =
       recorder->start(file, info, about.embed ? &bone : nullptr, std::move(on_trouble));
   if (!started) return started.error();

@@ -8,7 +8,8 @@ namespace burr::workshop {
 Result<std::unique_ptr<SuctionHand>> SuctionHand::add(sim::Session& session,
                                                       const std::string& device,
                                                       const math::Pose& start,
-                                                      const math::Quat& world_from_view) {
+                                                      const math::Quat& world_from_view,
+                                                      std::optional<tool::ShapedTool> tool) {
   HandRequest request;
   request.device = device;
   auto laid = open_hand(request, start, world_from_view);
@@ -16,6 +17,7 @@ Result<std::unique_ptr<SuctionHand>> SuctionHand::add(sim::Session& session,
   device::MappedHand& hand = *laid->hand;
   tick::SecondHandSettings settings;
   settings.radius = kRadius;
+  settings.tool = std::move(tool);
   settings.force = session.settings().servo.force;
   settings.limit.user_force = laid->max_force;
   const Status joined = session.add_second_hand(std::move(laid->hand), settings);
@@ -23,13 +25,14 @@ Result<std::unique_ptr<SuctionHand>> SuctionHand::add(sim::Session& session,
   return std::unique_ptr<SuctionHand>(new SuctionHand(session, hand));
 }
 
-SuctionHand::Seen SuctionHand::now() {
+const tick::TickRow& SuctionHand::now() {
   static_cast<void>(session_.second_hand()->view().take(row_));
-  const device::HandState& hand = row_.hand;
-  return {{row_.contact.proxy, hand.world_from_tool.q},
-          row_.contact.force,
-          hand.valid,
-          hand.valid && (hand.buttons & device::kLifted) == 0 && hand.pedal <= 0};
+  return row_;
+}
+
+const tool::Tool* SuctionHand::tool() const {
+  const auto& tool = session_.second_hand()->settings().tool;
+  return tool ? &tool->tool : nullptr;
 }
 
 }  // namespace burr::workshop

@@ -1,8 +1,8 @@
-// workshop/suction_hand.h - a second haptic device for the other hand. It moves a suction tube,
-// which touches the bone (tick/second_hand.h) and removes water, dust and blood near its mouth
-// (render/wound.h). It never changes bone, and it is not recorded.
+// workshop/suction_hand.h - a second haptic device for the other hand (tick/second_hand.h). It moves a
+// suction tube, which touches the bone, removes water, dust and blood near its mouth
+// (render/wound.h), and never changes bone; or a tool of the rack, which cuts.
 //
-//     auto hand = SuctionHand::add(*session, "touch:Left", start, view);
+//     auto hand = SuctionHand::add(*session, "touch:Left", start, view, {});
 //     each frame:   hand->set_axes(view);  const SuctionHand::Seen seen = hand->now();
 //
 // Thread: main.
@@ -22,21 +22,18 @@ class SuctionHand {
  public:
   static constexpr double kRadius = 1.5e-3;  // of the tube [m]
 
-  // start: where its tip starts; world_from_view: the axes of the view. Its mill button stops the
-  // suction while it is pressed; its clutch button lifts the tube. Call it before the session
-  // starts; the session owns the device. Error: see open_hand().
-  [[nodiscard]] static Result<std::unique_ptr<SuctionHand>> add(sim::Session& session,
-                                                                const std::string& device,
-                                                                const math::Pose& start,
-                                                                const math::Quat& world_from_view);
+  // start: where its tip starts; world_from_view: the axes of the view. tool: none, a suction tube.
+  // Its mill button stops the suction while it is pressed, or drives the tool; its clutch button
+  // lifts either. Call it before the session starts; the session owns the device. Error: see
+  // open_hand() and Session::add_second_hand().
+  [[nodiscard]] static Result<std::unique_ptr<SuctionHand>> add(
+      sim::Session& session, const std::string& device, const math::Pose& start,
+      const math::Quat& world_from_view, std::optional<tool::ShapedTool> tool);
 
-  struct Seen {
-    math::Pose world_from_tool;  // where the bone stops it
-    math::Vec3 force = math::Vec3::Zero();
-    bool there = false;  // the device reports a position
-    bool sucks = false;
-  };
-  [[nodiscard]] Seen now();
+  // The newest row of its hand.
+  [[nodiscard]] const tick::TickRow& now();
+  // nullptr: a suction tube.
+  [[nodiscard]] const tool::Tool* tool() const;
   void set_axes(const math::Quat& world_from_view) { hand_.set_axes(world_from_view); }
   // Called by the emergency stop.
   void lift(bool lifted) { hand_.lift(lifted); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/workshop/second_tool.h"
 #include "burr/workshop/work_view.h"
 
 namespace burr::workshop {
@@ -47,14 +48,32 @@ void Traces::collect(double t, std::uint64_t every, Changes& changes) {
     if (!ahead_ && !steps_.next(step_)) return;
     ahead_ = time_of(step_.row) > t;
     if (ahead_) return;
-    if (step_.row.tick % every == 0)
-      changes.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz));
+    if (step_.row.tick % every != 0) continue;
+    changes.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz));
+    if (step_.second && sucks(*step_.second))
+      changes.sucked.push_back({changes.ticks.size(), step_.second->contact.proxy,
+                                step_.second->tool.radius,
+                                static_cast<double>(every) / player_.info().rate_hz});
   }
 }
 
 void Traces::Changes::show(render::Wound& wound) const {
   if (anew) wound.forget();
-  for (const render::Wound::Tick& tick : ticks) wound.see(tick);
+  std::size_t next = 0;
+  for (std::size_t n = 0; n < ticks.size(); ++n) {
+    wound.see(ticks[n]);
+    for (; next < sucked.size() && sucked[next].after == n + 1; ++next)
+      wound.suck(sucked[next].mouth, sucked[next].radius, sucked[next].seconds);
+  }
+}
+
+void Traces::Changes::append(const Changes& later) {
+  const std::size_t before = ticks.size();
+  ticks.insert(ticks.end(), later.ticks.begin(), later.ticks.end());
+  for (Suction one : later.sucked) {
+    one.after += before;
+    sucked.push_back(one);
+  }
 }
 
 }  // namespace burr::workshop

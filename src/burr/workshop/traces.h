@@ -7,6 +7,7 @@
 // Thread: that of the player.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,9 +19,17 @@ namespace burr::workshop {
 
 class Traces {
  public:
+  // A suction tube in the other hand.
+  struct Suction {
+    std::size_t after = 0;  // so many of the ticks
+    math::Vec3 mouth;
+    double radius = 0, seconds = 0;
+  };
   struct Changes {
     bool anew = false;  // forget what was shown before
     std::vector<render::Wound::Tick> ticks;
+    std::vector<Suction> sucked;  // in order
+    void append(const Changes& later);
     void show(render::Wound& wound) const;
   };
 

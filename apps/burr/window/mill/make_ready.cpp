@@ -98,8 +98,11 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
   if (!options.suction.empty()) {
     // the suction tube starts beside the burr, on the side of the other hand
     const math::Quat view = view_of_hand(ready.scene.camera);
+    auto tool = second_tool(options.tool);
+    if (!tool) return tool.error();
     auto suction = workshop::SuctionHand::add(*ready.session, options.suction,
-                                              {above.p - view * Vec3(15e-3, 0, 0), above.q}, view);
+                                              {above.p - view * Vec3(15e-3, 0, 0), above.q}, view,
+                                              std::move(*tool));
     if (!suction) return suction.error();
     ready.suction = std::move(*suction);
     ready.hands.suction = ready.suction.get();

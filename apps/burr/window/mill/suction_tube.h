@@ -1,5 +1,5 @@
-// apps/burr/window/mill/suction_tube.h - the suction tube in the other hand: draws it, and clears
-// the surface.
+// apps/burr/window/mill/suction_tube.h - the suction tube, or the tool, in the other hand: draws it;
+// a tube clears the surface.
 //
 // Thread: main.
 #pragma once

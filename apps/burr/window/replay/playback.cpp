@@ -130,24 +130,25 @@ void Playback::work() {
     Shown shown;
     shown.t = wanted_;
     lock.unlock();
-    const auto row = player_.tick_at(shown.t);
-    if (row) {
-      shown.row = *row;
+    const auto step = player_.step_at(shown.t);
+    if (step) {
+      shown.row = step->row;
+      shown.second = step->second;
       lock.lock();
-      early_ = {shown.t, *row};
+      early_ = {shown.t, step->row};
       early_fresh_ = true;
       lock.unlock();
     }
     if (const Status there = player_.bone_at(shown.t, bone_); !there)
       shown.trouble = there.error().text;
-    else if (!row)
-      shown.trouble = row.error().text;
+    else if (!step)
+      shown.trouble = step.error().text;
     shown.changes = traces_.seek(shown.t);
     lock.lock();
     working_ = false;
     if (fresh_ && !shown.changes.anew) {  // the last result was not taken: keep its ticks, too
       workshop::Traces::Changes both = std::move(newest_.changes);
-      both.ticks.insert(both.ticks.end(), shown.changes.ticks.begin(), shown.changes.ticks.end());
+      both.append(shown.changes);
       shown.changes = std::move(both);
     }
     newest_ = std::move(shown);

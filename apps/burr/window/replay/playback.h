@@ -62,10 +62,11 @@ struct Recorded {
 class Playback {
  public:
   struct Shown {
-    double t = 0;                       // the requested moment  [s]
-    tick::TickRow row;                  // the last tick before that moment
-    std::string trouble;                // "": the bone is as it was then; otherwise why not
-    workshop::Traces::Changes changes;  // since the last take()
+    double t = 0;                         // the requested moment  [s]
+    tick::TickRow row;                    // the last tick before that moment
+    std::optional<tick::TickRow> second;  // of the other hand
+    std::string trouble;                  // "": the bone is as it was then; otherwise why not
+    workshop::Traces::Changes changes;    // since the last take()
   };
 
   // `recorded` must outlive this object. Its player and bone are used by this object's thread.

@@ -110,4 +110,15 @@ Touch ShaftTouch::step_pose(const Pose& hand) BURR_RT {
   return touch;
 }
 
+Touch ShaftTouch::felt(const SixTouch& six, const Pose& hand) BURR_RT {
+  contact_ = {};
+  Touch touch = as_tool(six);
+  contact_.rests = contact_.rests || six.lagging;
+  // the next tick goes on in six unknowns, until nothing but the head touches
+  rests_ = true;
+  static_cast<void>(slip_.step(hand.p, true, touch));
+  follows_ = true;
+  return touch;
+}
+
 }  // namespace burr::haptics

@@ -48,6 +48,9 @@ struct SixTouch {
   int moves = 0;
   bool lagging = false;   // did not catch up with the hand
   bool overflow = false;  // more points than the lists hold: shorter moves were made
+  // The tool rests on another one (two_tools.h), which is not among the contacts.
+  bool meets = false;
+  math::Vec3 pushed = math::Vec3::Zero();  // the part of the stretch that it carries  [m]
 };
 
 class SixProxy {
@@ -69,6 +72,7 @@ class SixProxy {
   void set_max_moves(int moves) BURR_RT { settings_.max_moves = moves; }
 
  private:
+  friend class TwoTools;
   // The points of bone near one part, valid as long as the tool moved little since.
   struct Near {
     std::unique_ptr<NearPoints> points;

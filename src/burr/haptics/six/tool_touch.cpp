@@ -18,7 +18,7 @@ Touch touch_of(const SixTouch& six, const tool::Tool& tool, double lever,
   touch.lagging = six.lagging;
   touch.overflow = six.overflow;
   touch.depth = math::norm(six.stretch);
-  touch.touching = six.active > 0 && touch.depth > 1e-12;
+  touch.touching = (six.active > 0 || six.meets) && touch.depth > 1e-12;
   if (touch.touching) touch.normal = six.stretch / touch.depth;
   for (int a = 0; a < six.active; ++a) {
     const SixContact& one = six.contacts[static_cast<std::size_t>(a)];
@@ -63,13 +63,15 @@ void ToolTouch::place(const Vec3& p) BURR_RT { place(Pose{p, pose_.q}); }
 
 Touch ToolTouch::step(const Vec3& hand) BURR_RT { return step_pose({hand, pose_.q}); }
 
-Touch ToolTouch::step_pose(const Pose& hand) BURR_RT {
+Touch ToolTouch::step_pose(const Pose& hand) BURR_RT { return felt(six_.step(hand), hand); }
+
+Touch ToolTouch::felt(const SixTouch& six, const Pose& hand) BURR_RT {
   contact_ = {};
-  const SixTouch six = six_.step(hand);
   pose_ = six.world_from_tool;
   Touch touch = touch_of(six, six_.tool(), lever_, contact_);
-  const bool limited = slip_.step(hand.p, follows_ || six.active > 0, touch);
-  follows_ = six.active > 0 || limited;
+  const bool rests = six.active > 0 || six.meets;
+  const bool limited = slip_.step(hand.p, follows_ || rests, touch);
+  follows_ = rests || limited;
   return touch;
 }
 

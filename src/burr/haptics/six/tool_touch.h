@@ -32,6 +32,8 @@ class ToolTouch final : public TouchMethod {
   [[nodiscard]] Touch step_pose(const math::Pose& hand) BURR_RT override;
   [[nodiscard]] const math::Vec3& position() const BURR_RT override { return pose_.p; }
   [[nodiscard]] const math::Pose& pose() const BURR_RT { return pose_; }
+  [[nodiscard]] SixProxy* six() BURR_RT override { return &six_; }
+  [[nodiscard]] Touch felt(const SixTouch& six, const math::Pose& hand) BURR_RT override;
   [[nodiscard]] const ToolContact* parts() const BURR_RT override { return &contact_; }
   void set_friction(double, double) BURR_RT override {}
   [[nodiscard]] bool set_radius(double) BURR_RT override { return false; }

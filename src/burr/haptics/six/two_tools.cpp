@@ -1,0 +1,434 @@
+#include "burr/haptics/six/two_tools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "burr/math/sums.h"
+#include "burr/math/turn.h"
+
+namespace burr::haptics {
+namespace {
+
+using math::Quat;
+using math::Vec3;
+
+constexpr int kMost = 12;            // rows in hand
+constexpr int kPasses = 90;          // rows taken
+constexpr double kTolerance = 2e-6;  // as in least_twist.cpp                           [voxel]
+constexpr double kExact = 1e-11;     // the same for a pair, whose row is in doubles    [voxel]
+constexpr double kAccepted = 4e-4;   //                                                 [voxel]
+constexpr double kDependent = 1e-9;
+constexpr double kMargin = 0.2e-3;  // tools this near are solved together                  [m]
+constexpr int kRounds = 10;
+constexpr double kLeastMove = 0.02;  // [voxel]
+constexpr double kRest = 0.1;        // of a move left over that counts as rest          [voxel]
+
+using Twelve = std::array<double, 12>;
+
+double dot12(const Twelve& a, const Twelve& b) BURR_RT {
+  double sum = 0;
+  for (std::size_t k = 0; k < 12; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+double length3(const Six& z, std::size_t first) BURR_RT {
+  return std::sqrt(math::sum_of_three(z[first] * z[first], z[first + 1] * z[first + 1],
+                                      z[first + 2] * z[first + 2]));
+}
+
+// Whose row, and which.
+struct Name {
+  int whose = -1, index = -1;  // 0 a's bone, 1 b's bone, 2 a pair
+  bool operator==(const Name&) const = default;
+};
+
+struct Held {  // the rows in hand
+  Twelve row[kMost];
+  double push[kMost] = {};
+  Name name[kMost];
+  int count = 0;
+};
+
+// As in least_twist.cpp, with twelve unknowns.
+void over_rows(const Held& held, const Twelve& a, double* r) BURR_RT {
+  double l[kMost][kMost];
+  for (int i = 0; i < held.count; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double sum = dot12(held.row[i], held.row[j]);
+      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+      l[i][j] = i == j ? std::sqrt(std::max(sum, 1e-14)) : sum / l[j][j];
+    }
+    double sum = dot12(held.row[i], a);
+    for (int k = 0; k < i; ++k) sum -= l[i][k] * r[k];
+    r[i] = sum / l[i][i];
+  }
+  for (int i = held.count - 1; i >= 0; --i) {
+    double sum = r[i];
+    for (int k = i + 1; k < held.count; ++k) sum -= l[k][i] * r[k];
+    r[i] = sum / l[i][i];
+  }
+}
+
+void drop(Held& held, int which) BURR_RT {
+  for (int i = which; i + 1 < held.count; ++i) {
+    held.row[i] = held.row[i + 1];
+    held.push[i] = held.push[i + 1];
+    held.name[i] = held.name[i + 1];
+  }
+  --held.count;
+}
+
+bool take(Held& held, Twelve& y, const Twelve& a, double gap, const Name& name) BURR_RT {
+  double push = 0;
+  const double size = dot12(a, a);
+  for (int round = 0; round < 2 * kMost + 2; ++round) {
+    double r[kMost] = {};
+    over_rows(held, a, r);
+    Twelve way = a;
+    for (int i = 0; i < held.count; ++i)
+      for (std::size_t k = 0; k < 12; ++k) way[k] -= r[i] * held.row[i][k];
+    const double square = dot12(way, way);
+    double until_drop = std::numeric_limits<double>::infinity();
+    int first = -1;
+    for (int i = 0; i < held.count; ++i)
+      if (r[i] > 1e-12 && held.push[i] / r[i] < until_drop) {
+        until_drop = held.push[i] / r[i];
+        first = i;
+      }
+    const bool free = square > kDependent * size && held.count < kMost;
+    const double violated = -(dot12(a, y) + gap);
+    if (violated <= 0) return true;  // what was dropped made room
+    const double until_held = free ? violated / square : std::numeric_limits<double>::infinity();
+    const double step = std::min(until_drop, until_held);
+    if (!(step < std::numeric_limits<double>::infinity())) return false;
+    if (free)
+      for (std::size_t k = 0; k < 12; ++k) y[k] += step * way[k];
+    for (int i = 0; i < held.count; ++i) held.push[i] -= step * r[i];
+    push += step;
+    if (until_held <= until_drop) {
+      held.row[held.count] = a;
+      held.push[held.count] = push;
+      held.name[held.count++] = name;
+      return true;
+    }
+    drop(held, first);
+  }
+  return false;
+}
+
+Six bone_row(const Rows& rows, int j) BURR_RT {
+  return {static_cast<double>(rows.n[0][j]), static_cast<double>(rows.n[1][j]),
+          static_cast<double>(rows.n[2][j]), static_cast<double>(rows.m[0][j]),
+          static_cast<double>(rows.m[1][j]), static_cast<double>(rows.m[2][j])};
+}
+
+}  // namespace
+
+struct TwoTools::Twist {
+  Six a = {}, b = {};
+  LeastTwist bone_a, bone_b;   // the rows of the bone it rests on, for SixProxy::report()
+  Vec3 pushed = Vec3::Zero();  // by the pairs: stretch of a's spring  [voxel], p_grid
+  int meets = 0;               // pairs it rests on
+  bool solved = true, cut_short = false;
+};
+
+// ---- pairs of parts
+
+namespace {
+
+PartPlace place_of(const tool::Part& part, const tool::Shape& shape, const Vec3& c, const Quat& r,
+                   double voxel) BURR_RT {
+  return {shape, c + r * Vec3(part.tool_from_part.p / voxel),
+          math::product(r, part.tool_from_part.q)};
+}
+
+}  // namespace
+
+double TwoTools::least_gap(const SixProxy& a, const SixProxy& b) const BURR_RT {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < a.tool_.count; ++i)
+    for (int j = 0; j < b.tool_.count; ++j) {
+      const tool::Part &one = a.tool_.parts[SixProxy::index(i)],
+                       &other = b.tool_.parts[SixProxy::index(j)];
+      if (one.role == tool::Role::seen || other.role == tool::Role::seen) continue;
+      const double voxel = a.grid_.voxel;
+      least =
+          std::min(least, part_gap(place_of(one, a.shape_[SixProxy::index(i)], a.c_, a.r_, voxel),
+                                   place_of(other, b.shape_[SixProxy::index(j)], b.c_, b.r_, voxel))
+                              .gap);
+    }
+  return least;
+}
+
+void TwoTools::add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b) BURR_RT {
+  if (count_ == kMostPairs) return;
+  Pair& pair = pairs_[static_cast<std::size_t>(count_++)];
+  const Vec3& n = gap.normal;
+  const Vec3 of_a = Vec3(gap.a - a.c_).cross(n) / a.lever_,
+             of_b = Vec3(gap.b - b.c_).cross(n) / b.lever_;
+  pair.a = {n.x(), n.y(), n.z(), of_a.x(), of_a.y(), of_a.z()};
+  pair.b = {-n.x(), -n.y(), -n.z(), -of_b.x(), -of_b.y(), -of_b.z()};
+  pair.normal = n;
+  pair.gap = gap.gap;
+}
+
+void TwoTools::find_pairs(const SixProxy& a, const SixProxy& b) BURR_RT {
+  count_ = 0;
+  for (int i = 0; i < a.tool_.count; ++i)
+    for (int j = 0; j < b.tool_.count; ++j) {
+      const tool::Part &one = a.tool_.parts[SixProxy::index(i)],
+                       &other = b.tool_.parts[SixProxy::index(j)];
+      if (one.role == tool::Role::seen || other.role == tool::Role::seen) continue;
+      const double voxel = a.grid_.voxel;
+      const PartPlace place_a = place_of(one, a.shape_[SixProxy::index(i)], a.c_, a.r_, voxel),
+                      place_b = place_of(other, b.shape_[SixProxy::index(j)], b.c_, b.r_, voxel);
+      add_pair(part_gap(place_a, place_b), a, b);
+      PartGap ends[4];
+      const int more = gaps_at_ends(place_a, place_b, ends);
+      for (int n = 0; n < more; ++n) add_pair(ends[n], a, b);
+    }
+}
+
+bool TwoTools::near(const HeldTool& a, const HeldTool& b) BURR_RT {
+  // no move of this tick goes farther than what is wanted
+  const auto may_go = [](const HeldTool& one) BURR_RT {
+    const SixProxy& proxy = one.proxy;
+    const Six zd =
+        proxy.wanted(proxy.grid_.grid_from_world(one.hand.p),
+                     math::normalized(math::product(proxy.grid_.frame.q.conjugate(), one.hand.q)));
+    double farthest = 0;
+    for (int part = 0; part < proxy.tool_.count; ++part)
+      if (proxy.tool_.parts[SixProxy::index(part)].role != tool::Role::seen)
+        farthest = std::max(farthest, proxy.far_[SixProxy::index(part)]);
+    return std::sqrt(dot6(zd, zd)) * (1 + farthest / proxy.lever_);
+  };
+  const double gap = least_gap(a.proxy, b.proxy);
+  apart_ = apart_ || gap >= 0;
+  return apart_ && gap < kMargin / a.proxy.grid_.voxel + may_go(a) + may_go(b);
+}
+
+// ---- the programme
+
+// Goldfarb & Idnani as in least_twist.h, over the rows of both tools and of their pairs.
+void TwoTools::least(const SixProxy& a, const SixProxy& b, const Six& wanted_a, const Six& wanted_b,
+                     Twist& twist) const BURR_RT {
+  Twelve y, start;
+  for (std::size_t k = 0; k < 6; ++k) {
+    start[k] = wanted_a[k];
+    start[k + 6] = weight_ * wanted_b[k];
+  }
+  y = start;
+  Held held;
+  double low = 0;
+  bool fine = false;
+  for (int pass = 0; pass < kPasses && !fine; ++pass) {
+    float za[6], zb[6];
+    for (std::size_t k = 0; k < 6; ++k) {
+      za[k] = static_cast<float>(y[k]);
+      zb[k] = static_cast<float>(y[k + 6] / weight_);
+    }
+    Name name;
+    double worst = 0;
+    const auto look = [&](int whose, int index, double value, double tolerance) BURR_RT {
+      if (index < 0 || -value <= tolerance || value >= worst) return;
+      for (int i = 0; i < held.count; ++i)  // as exact as floats allow
+        if (held.name[i] == Name{whose, index}) return;
+      worst = value;
+      name = {whose, index};
+    };
+    float value = 0;
+    int j = a.kernel_.worst(*a.rows_, za, value);
+    look(0, j, static_cast<double>(value), kTolerance);
+    value = 0;
+    j = b.kernel_.worst(*b.rows_, zb, value);
+    look(1, j, static_cast<double>(value), kTolerance);
+    for (int p = 0; p < count_; ++p) {
+      const Pair& pair = pairs_[static_cast<std::size_t>(p)];
+      double at = pair.gap;
+      for (std::size_t k = 0; k < 6; ++k) at += pair.a[k] * y[k] + pair.b[k] * y[k + 6] / weight_;
+      look(2, p, at, kExact);
+    }
+    low = -worst;
+    fine = name.whose < 0;
+    if (fine) break;
+    Twelve row = {};
+    double gap = 0;
+    if (name.whose != 1) {
+      const Six of = name.whose == 0 ? bone_row(*a.rows_, name.index)
+                                     : pairs_[static_cast<std::size_t>(name.index)].a;
+      for (std::size_t k = 0; k < 6; ++k) row[k] = of[k];
+    }
+    if (name.whose != 0) {
+      const Six of = name.whose == 1 ? bone_row(*b.rows_, name.index)
+                                     : pairs_[static_cast<std::size_t>(name.index)].b;
+      for (std::size_t k = 0; k < 6; ++k) row[k + 6] = of[k] / weight_;
+    }
+    gap = name.whose == 0   ? static_cast<double>(a.rows_->gap[name.index])
+          : name.whose == 1 ? static_cast<double>(b.rows_->gap[name.index])
+                            : pairs_[static_cast<std::size_t>(name.index)].gap;
+    if (!take(held, y, row, gap, name)) break;
+  }
+  twist = {};
+  if (!fine && low > kAccepted) {
+    twist.solved = false;
+    return;
+  }
+  // sums of many small steps: the pushes give the same move without their rounding
+  y = start;
+  for (int i = 0; i < held.count; ++i) {
+    for (std::size_t k = 0; k < 12; ++k) y[k] += held.push[i] * held.row[i][k];
+    if (held.name[i].whose == 2) {
+      ++twist.meets;
+      twist.pushed += held.push[i] * pairs_[static_cast<std::size_t>(held.name[i].index)].normal;
+      continue;
+    }
+    const bool of_a = held.name[i].whose == 0;
+    LeastTwist& bone = of_a ? twist.bone_a : twist.bone_b;
+    if (bone.active == 6) continue;  // more cannot be independent
+    bone.index[bone.active] = held.name[i].index;
+    bone.push[bone.active++] = of_a ? held.push[i] : held.push[i] / (weight_ * weight_);
+  }
+  for (std::size_t k = 0; k < 6; ++k) {
+    twist.a[k] = y[k];
+    twist.b[k] = y[k + 6] / weight_;
+  }
+}
+
+void TwoTools::solve(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wanted_b,
+                     Twist& twist) BURR_RT {
+  // what grew into a tool, or overlaps, is pushed out slowly
+  const auto lift = [&](double deepest) BURR_RT {
+    for (Rows* rows : {a.rows_.get(), b.rows_.get()})
+      for (int j = 0; j < rows->count; ++j)
+        rows->gap[j] = std::max(rows->gap[j], static_cast<float>(deepest));
+    for (int p = 0; p < count_; ++p) {
+      double& gap = pairs_[static_cast<std::size_t>(p)].gap;
+      gap = std::max(gap, deepest);
+    }
+  };
+  // a turn errs a little: a pair takes that back at once, as bone does
+  lift(-a.settings_.push_out_speed);
+  least(a, b, wanted_a, wanted_b, twist);
+  if (twist.solved) return;
+  lift(0);
+  least(a, b, wanted_a, wanted_b, twist);
+}
+
+void TwoTools::move(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wanted_b,
+                    SixProxy::Limits& guess_a, SixProxy::Limits& guess_b, Twist& twist,
+                    SixTouch& touch_a, SixTouch& touch_b) BURR_RT {
+  struct Half {
+    SixProxy& proxy;
+    SixProxy::Limits& guess;
+    SixTouch& touch;
+    SixProxy::Limits most, now;
+    double p = 0, t = 0;
+    Half(SixProxy& which, SixProxy::Limits& first, SixTouch& result) BURR_RT
+        : proxy(which),
+          guess(first),
+          touch(result),
+          most(which.most_),
+          now{std::clamp(first.move, kLeastMove, which.most_.move),
+              std::clamp(first.turn, 1e-6, which.most_.turn)} {}
+    bool collect() BURR_RT {
+      if (proxy.collect(now)) {
+        touch.candidates = std::max(touch.candidates, proxy.rows_->count);
+        return true;
+      }
+      touch.overflow = true;
+      most = {0.5 * now.move, 0.5 * now.turn};
+      now = most;
+      return false;
+    }
+    void measure(const Six& z) BURR_RT {
+      p = length3(z, 0);
+      t = length3(z, 3) / proxy.lever_;
+    }
+    [[nodiscard]] bool within() const BURR_RT { return p <= now.move && t <= now.turn; }
+    [[nodiscard]] bool at_most() const BURR_RT {
+      return (p > now.move && now.move >= most.move) || (t > now.turn && now.turn >= most.turn);
+    }
+    [[nodiscard]] double share() const BURR_RT {
+      return std::min(p > now.move ? now.move / p : 1.0, t > now.turn ? now.turn / t : 1.0);
+    }
+    void enlarge() BURR_RT {
+      if (p > now.move) now.move = std::min({1.1 * p, 3 * now.move + 0.1, most.move});
+      if (t > now.turn) now.turn = std::min({1.1 * t, 3 * now.turn + 1e-3, most.turn});
+    }
+  };
+  Half one(a, guess_a, touch_a), other(b, guess_b, touch_b);
+  for (int round = 0; round < kRounds; ++round) {
+    const bool both = one.collect() & other.collect();
+    if (!both) continue;
+    find_pairs(a, b);
+    solve(a, b, wanted_a, wanted_b, twist);
+    one.measure(twist.a);
+    other.measure(twist.b);
+    if (one.within() && other.within()) {
+      guess_a = {1.3 * one.p, 1.3 * one.t};
+      guess_b = {1.3 * other.p, 1.3 * other.t};
+      return;
+    }
+    if (one.at_most() || other.at_most() || round + 1 == kRounds) {
+      // rows hold for every shorter move in the same direction
+      const double share = std::min(one.share(), other.share());
+      for (double& part : twist.a) part *= share;
+      for (double& part : twist.b) part *= share;
+      twist.cut_short = true;
+      guess_a = one.now;
+      guess_b = other.now;
+      return;
+    }
+    one.enlarge();
+    other.enlarge();
+  }
+  twist = {};
+  twist.solved = false;
+  twist.cut_short = true;
+}
+
+void TwoTools::step(const HeldTool& a, const HeldTool& b, SixTouch& touch_a,
+                    SixTouch& touch_b) BURR_RT {
+  weight_ = std::sqrt(std::max(b.stiffness, 1e-9) / std::max(a.stiffness, 1e-9));
+  const auto goal = [](const HeldTool& one) BURR_RT {
+    const volume::Grid& grid = one.proxy.grid_;
+    return math::Pose{grid.grid_from_world(one.hand.p),
+                      math::normalized(math::product(grid.frame.q.conjugate(), one.hand.q))};
+  };
+  const math::Pose goal_a = goal(a), goal_b = goal(b);
+  SixProxy &one = a.proxy, &other = b.proxy;
+  touch_a = touch_b = {};
+  SixProxy::Limits guess_a = one.last_, guess_b = other.last_;
+  Twist twist;
+  twist.cut_short = true;
+  double left = 1;
+  const double close = one.settings_.close / one.grid_.voxel;
+  const int most = std::min(one.settings_.max_moves, other.settings_.max_moves);
+  for (int moves = 0; moves < most;) {
+    move(one, other, one.wanted(goal_a.p, goal_a.q), other.wanted(goal_b.p, goal_b.q), guess_a,
+         guess_b, twist, touch_a, touch_b);
+    if (moves++ == 0) {
+      one.last_ = guess_a;
+      other.last_ = guess_b;
+    }
+    touch_a.moves = touch_b.moves = moves;
+    if (!twist.solved) break;
+    one.go(twist.a);
+    other.go(twist.b);
+    left = std::sqrt(dot6(twist.a, twist.a) + dot6(twist.b, twist.b));
+    const int active = twist.bone_a.active + twist.bone_b.active + twist.meets;
+    if (!twist.cut_short && (left < close || active == 0)) break;
+  }
+  const bool rests = twist.bone_a.active + twist.bone_b.active + twist.meets > 0;
+  const bool lags = !twist.solved || twist.cut_short || (rests && left > kRest);
+  touch_a.lagging = touch_b.lagging = lags;
+  one.report(twist.bone_a, goal_a.p, goal_a.q, touch_a);
+  other.report(twist.bone_b, goal_b.p, goal_b.q, touch_b);
+  touch_a.meets = touch_b.meets = twist.meets > 0;
+  const Vec3 pushed = one.grid_.frame.q * Vec3(twist.pushed * one.grid_.voxel);
+  touch_a.pushed = pushed;
+  touch_b.pushed = -pushed / (weight_ * weight_);
+}
+
+}  // namespace burr::haptics

@@ -1,0 +1,384 @@
+// Two tools that feel each other: the force against closed forms, and what must hold for any motion.
+#include "burr/haptics/six/two_tools.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "burr/haptics/six/part_gap.h"
+#include "burr/math/rotation.h"
+#include "burr/math/turn.h"
+#include "burr/rt/simd.h"
+#include "scene.h"
+#include "support/rt_guard.h"
+
+namespace burr::haptics {
+namespace {
+
+using math::Pose;
+using math::Quat;
+using math::Vec3;
+using test::Scene;
+using tool::Role;
+using tool::Shape;
+using tool::ShapeKind;
+
+constexpr double kMm = 1e-3;
+
+Quat turn_about(const Vec3& axis, double angle) {
+  Quat q;
+  q.w() = std::cos(angle / 2);
+  q.vec() = std::sin(angle / 2) * axis.normalized();
+  return q;
+}
+
+// A shaft from the origin along +z.
+tool::Tool shaft(double radius, double length = 40 * kMm) {
+  tool::Tool tool;
+  EXPECT_TRUE(tool::add_part(tool, {{ShapeKind::capsule, 0, 0, 0.5 * length, radius},
+                                    {{0, 0, 0.5 * length}, Quat::Identity()},
+                                    Role::cuts}));
+  return tool;
+}
+
+tool::Tool ball(double radius) {
+  tool::Tool tool;
+  EXPECT_TRUE(tool::add_part(tool, {{ShapeKind::ball, 0, 0, 0, radius}, {}, Role::cuts}));
+  return tool;
+}
+
+tool::Tool burr(double radius) {
+  tool::Burr head;
+  head.radius = radius;
+  return tool::burr_with_shaft(head);
+}
+
+// Two tools over a scene, with hands that the test moves.
+struct Pair {
+  SixProxy a, b;
+  double k_a, k_b;
+  TwoTools two;
+  SixTouch touch_a, touch_b;
+  bool together = false;
+
+  Pair(const Scene& scene, const tool::Tool& tool_a, const tool::Tool& tool_b, const Pose& at_a,
+       const Pose& at_b, const SixSettings& of_a = {}, const SixSettings& of_b = {},
+       double stiffness_a = 1000, double stiffness_b = 700)
+      : a(scene.surface, tool_a, of_a, at_a),
+        b(scene.surface, tool_b, of_b, at_b),
+        k_a(stiffness_a),
+        k_b(stiffness_b) {}
+  void step(const Pose& hand_a, const Pose& hand_b) {
+    const HeldTool one = {a, hand_a, k_a}, other = {b, hand_b, k_b};
+    together = two.near(one, other);
+    if (together) {
+      two.step(one, other, touch_a, touch_b);
+    } else {
+      touch_a = a.step(hand_a);
+      touch_b = b.step(hand_b);
+    }
+  }
+  [[nodiscard]] double gap() const {
+    double least = std::numeric_limits<double>::infinity();
+    const Pose at_a = a.pose(), at_b = b.pose();
+    for (int i = 0; i < a.tool().count; ++i)
+      for (int j = 0; j < b.tool().count; ++j) {
+        const tool::Part &one = a.tool().parts[static_cast<std::size_t>(i)],
+                         &other = b.tool().parts[static_cast<std::size_t>(j)];
+        least = std::min(
+            least,
+            part_gap({one.shape, at_a * one.tool_from_part.p, at_a.q * one.tool_from_part.q},
+                     {other.shape, at_b * other.tool_from_part.p, at_b.q * other.tool_from_part.q})
+                .gap);
+      }
+    return least;
+  }
+  // V of both springs  [J]
+  [[nodiscard]] double energy(double lever_a, double lever_b) const {
+    return 0.5 * k_a *
+               (touch_a.stretch.squaredNorm() + lever_a * lever_a * touch_a.turn.squaredNorm()) +
+           0.5 * k_b *
+               (touch_b.stretch.squaredNorm() + lever_b * lever_b * touch_b.turn.squaredNorm());
+  }
+};
+
+// In free air: the bone is far below.
+Scene air() { return Scene(phantom::ball(2 * kMm), 0.5); }
+const Vec3 kUp(0, 0, 60 * kMm);
+
+// ---- closed forms
+
+TEST(TwoTools, AShaftPressedOnAShaftPushesAsBothSpringsAndLeversSay) {
+  const Scene scene = air();
+  for (const double l_a : {5 * kMm, 20 * kMm})
+    for (const double l_b : {0.0, 15 * kMm})
+      for (const double lever_b : {17 * kMm, 60 * kMm}) {
+        const double r_a = 1.2 * kMm, r_b = 0.8 * kMm, lever_a = 30 * kMm;
+        const double delta = 0.4e-6;  // the closed form is the limit of small turns
+        const Pose at_a = {kUp, Quat::Identity()};
+        // b lies along x, under a in y: they cross at l_a along a, l_b along b
+        const Pose at_b = {kUp + Vec3(-l_b, -(r_a + r_b), l_a),
+                           math::shortest_rotation(Vec3::UnitZ(), Vec3::UnitX())};
+        tool::Tool longer;  // on both sides of its origin, so that l_b = 0 is no end
+        ASSERT_TRUE(
+            tool::add_part(longer, {{ShapeKind::capsule, 0, 0, 40 * kMm, r_b}, {}, Role::cuts}));
+        Pair pair(scene, shaft(r_a), longer, at_a, at_b, {.lever = lever_a}, {.lever = lever_b});
+        Pose hand_b = at_b;
+        hand_b.p.y() -= 1e-8;
+        pair.step(at_a, hand_b);
+        hand_b.p.y() = at_b.p.y() + delta;
+        for (int n = 0; n < 60; ++n) pair.step(at_a, hand_b);
+        ASSERT_TRUE(pair.touch_a.meets && pair.touch_b.meets);
+        const double k_ra = pair.k_a * lever_a * lever_a, k_rb = pair.k_b * lever_b * lever_b;
+        const double expected =
+            delta / (1 / pair.k_a + l_a * l_a / k_ra + 1 / pair.k_b + l_b * l_b / k_rb);
+        const Vec3 on_a = pair.k_a * pair.touch_a.stretch, on_b = pair.k_b * pair.touch_b.stretch;
+        EXPECT_NEAR(on_a.y(), expected, 1e-6 * expected) << l_a << " " << l_b << " " << lever_b;
+        EXPECT_NEAR((on_a + on_b).norm(), 0, 1e-9 * expected) << "equal and opposite";
+        EXPECT_NEAR((pair.k_a * pair.touch_a.pushed - on_a).norm(), 0, 1e-6 * expected);
+        // its torque is that force at its lever
+        EXPECT_NEAR(k_ra * pair.touch_a.turn.x(), -l_a * expected, 1e-5 * l_a * expected);
+        EXPECT_EQ(pair.touch_a.active, 0) << "no bone";
+      }
+}
+
+TEST(TwoTools, BallsPushAlongTheLineOfTheirCentres) {
+  const Scene scene = air();
+  const Vec3 way = Vec3(1, 2, -0.5).normalized();
+  const Pose at_a = {kUp, turn_about({1, 0, 3}, 1)}, at_b = {kUp - 3 * kMm * way, Quat::Identity()};
+  Pair pair(scene, ball(2 * kMm), ball(0.99 * kMm), at_a, at_b);
+  for (int n = 0; n < 60; ++n) pair.step(at_a, {at_b.p + 0.51 * kMm * way, at_b.q});
+  const double expected = 0.5 * kMm / (1 / pair.k_a + 1 / pair.k_b);
+  EXPECT_NEAR((pair.k_a * pair.touch_a.stretch - expected * way).norm(), 0, 1e-6 * expected);
+  EXPECT_NEAR((pair.k_b * pair.touch_b.stretch + expected * way).norm(), 0, 1e-6 * expected);
+  EXPECT_NEAR(pair.touch_a.turn.norm(), 0, 1e-9);
+}
+
+// Side by side they meet along a line: pressed at its middle, neither turns; pressed beyond the end of
+// what they share, both do.
+TEST(TwoTools, SideBySideTheyRestOnALine) {
+  const Scene scene = air();
+  const double r = 1 * kMm;
+  const Pose at_a = {kUp, Quat::Identity()}, at_b = {kUp - Vec3(0, 2.01 * r, 0), at_a.q};
+  tool::Tool even;
+  ASSERT_TRUE(tool::add_part(even, {{ShapeKind::capsule, 0, 0, 20 * kMm, r}, {}, Role::cuts}));
+  Pair pair(scene, even, even, at_a, at_b);
+  for (int n = 0; n < 60; ++n) pair.step(at_a, {at_b.p + Vec3(0, 0.52 * kMm, 0), at_b.q});
+  const double expected = 0.51 * kMm / (1 / pair.k_a + 1 / pair.k_b);
+  EXPECT_NEAR(pair.k_a * pair.touch_a.stretch.y(), expected, 1e-4 * expected);
+  EXPECT_LT(pair.touch_a.turn.norm(), 1e-7);
+  // b's hand turns by 20 mrad: the line holds it back
+  for (int n = 0; n < 200; ++n)
+    pair.step(at_a, {at_b.p + Vec3(0, 0.52 * kMm, 0), turn_about({1, 0, 0}, 0.02)});
+  EXPECT_GT(pair.touch_b.turn.norm(), 1e-3);
+  EXPECT_NEAR((pair.k_a * pair.touch_a.stretch + pair.k_b * pair.touch_b.stretch).norm(), 0, 1e-9);
+  EXPECT_GT(pair.gap(), -5e-6);
+}
+
+// ---- for any motion
+
+// Hands that swing across each other, fast, over bone: whatever they do, no tool is in the other.
+TEST(TwoTools, NeverGoThroughEachOther) {
+  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(-1, 1);
+    const Pose at_a = {{-6 * kMm, 0, 16 * kMm}, Quat::Identity()},
+               at_b = {{6 * kMm, 0, 16 * kMm}, Quat::Identity()};
+    Pair pair(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b);
+    Pose hand_a = at_a, hand_b = at_b;
+    Vec3 fast_a = Vec3::Zero(), fast_b = Vec3::Zero();
+    const auto within = [](const Vec3& p) {
+      return Vec3(p.cwiseMin(Vec3(9, 4, 22) * kMm).cwiseMax(Vec3(-9, -4, 9) * kMm));
+    };
+    double deepest = 0;
+    int met = 0;
+    for (int n = 0; n < 4000; ++n) {
+      if (n % 100 == 0) {
+        fast_a = 0.1 * kMm * Vec3(0, any(random), any(random));
+        fast_b = 0.1 * kMm * Vec3(0, any(random), any(random));
+      }
+      // towards each other and beyond, at up to 0.2 m/s
+      hand_a.p = within(hand_a.p + fast_a);
+      hand_b.p = within(hand_b.p + fast_b);
+      hand_a.p.x() = -7 * kMm * std::cos(0.028 * n);
+      hand_b.p.x() = 7 * kMm * std::cos(0.023 * n);
+      hand_a.q = turn_about({1, 0.3, 0.1}, 0.5 * std::sin(0.004 * n));
+      hand_b.q = turn_about({0.2, 1, 0}, 0.6 * std::sin(0.005 * n));
+      pair.step(hand_a, hand_b);
+      met += pair.touch_a.meets ? 1 : 0;
+      deepest = std::min(deepest, pair.gap());
+      ASSERT_TRUE(pair.touch_a.stretch.allFinite() && pair.touch_b.turn.allFinite());
+      ASSERT_EQ(pair.touch_a.meets, pair.touch_b.meets);
+      ASSERT_NEAR((pair.k_a * pair.touch_a.pushed + pair.k_b * pair.touch_b.pushed).norm(), 0,
+                  1e-9);
+    }
+    EXPECT_GT(met, 200) << "seed " << seed;
+    EXPECT_GT(deepest, -0.02 * kMm) << "seed " << seed;
+  }
+}
+
+// At held hands, the springs' energy never rises from one move to the next.
+TEST(TwoTools, EnergyFallsWhileTheHandsAreStill) {
+  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const double lever = 17 * kMm;
+  const Pose at_a = {{-4 * kMm, 0, 20 * kMm}, Quat::Identity()},
+             at_b = {{4 * kMm, 0, 20 * kMm}, Quat::Identity()};
+  Pair pair(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b, {.lever = lever, .max_moves = 1},
+            {.lever = lever, .max_moves = 1});
+  pair.step(at_a, at_b);
+  const Pose hand_a = {{3 * kMm, 1 * kMm, 6 * kMm}, turn_about({1, 0, 0}, 0.3)},
+             hand_b = {{-2 * kMm, 0, 6 * kMm}, turn_about({0, 1, 0}, 0.4)};
+  double last = std::numeric_limits<double>::infinity(), most = 0;
+  int met = 0;
+  for (int n = 0; n < 500; ++n) {
+    pair.step(hand_a, hand_b);
+    met += pair.touch_a.meets ? 1 : 0;
+    const double v = pair.energy(lever, lever);
+    most = std::max(most, v - last);
+    last = v;
+  }
+  EXPECT_LE(most, 6e-8);  // 6e-5 N mm: what a turn errs by, and is taken back
+  EXPECT_GT(met, 100);
+}
+
+TEST(TwoTools, ItDoesNotMatterWhichComesFirst) {
+  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const Pose at_a = {{-4 * kMm, 0, 16 * kMm}, Quat::Identity()},
+             at_b = {{4 * kMm, 0, 16 * kMm}, Quat::Identity()};
+  Pair one(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b);
+  Pair other(scene, shaft(1 * kMm), burr(1.5 * kMm), at_b, at_a, {}, {}, 700, 1000);
+  double most = 0;
+  for (int n = 0; n < 400; ++n) {
+    const Pose hand_a = {{(-4 + 0.02 * n) * kMm, 0.5 * kMm, 14 * kMm}, turn_about({0, 1, 0}, 0.2)},
+               hand_b = {{(4 - 0.02 * n) * kMm, 0, 14 * kMm}, turn_about({1, 0, 0}, 0.1)};
+    one.step(hand_a, hand_b);
+    other.step(hand_b, hand_a);
+    ASSERT_NEAR((one.touch_a.stretch - other.touch_b.stretch).norm(), 0, 1e-6) << n;
+    ASSERT_NEAR((one.touch_b.stretch - other.touch_a.stretch).norm(), 0, 1e-6) << n;
+    most = std::max(most, one.touch_a.pushed.norm());
+  }
+  EXPECT_GT(most, 0.5 * kMm);
+}
+
+TEST(TwoTools, FarApartEachIsAloneToTheBit) {
+  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const Pose at_a = {{-8 * kMm, 0, 16 * kMm}, Quat::Identity()},
+             at_b = {{8 * kMm, 0, 30 * kMm}, Quat::Identity()};
+  Pair pair(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b);
+  SixProxy alone(scene.surface, burr(1.5 * kMm), {}, at_a);
+  for (int n = 0; n < 200; ++n) {
+    const Pose hand = {{-8 * kMm, 0, (16 - 0.05 * n) * kMm}, Quat::Identity()};
+    pair.step(hand, at_b);
+    EXPECT_FALSE(pair.together);
+    ASSERT_EQ(pair.touch_a.stretch, alone.step(hand).stretch) << n;
+  }
+  EXPECT_GT(pair.touch_a.active, 0);
+}
+
+TEST(TwoTools, ThatOverlapWhenTheyAreTakenUpAreFeltOnceTheyWereApart) {
+  const Scene scene = air();
+  const Pose at = {kUp, Quat::Identity()};
+  Pair pair(scene, ball(2 * kMm), ball(2 * kMm), at, {kUp + Vec3(1 * kMm, 0, 0), at.q});
+  pair.step(at, {kUp + Vec3(1 * kMm, 0, 0), at.q});
+  EXPECT_FALSE(pair.together);
+  for (int n = 0; n < 100; ++n) pair.step(at, {kUp + Vec3((1 + 0.04 * n) * kMm, 0, 0), at.q});
+  for (int n = 0; n < 100; ++n) pair.step(at, {kUp + Vec3((5 - 0.04 * n) * kMm, 0, 0), at.q});
+  EXPECT_TRUE(pair.touch_a.meets);
+  EXPECT_NEAR(pair.gap(), 0, 1e-6);
+}
+
+// A replay must give the same bits on every processor.
+TEST(TwoTools, GiveTheSameBitsOnEveryInstructionSet) {
+  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const rt::Simd best = rt::simd();
+  std::vector<Vec3> first;
+  bool met = false;
+  for (const rt::Simd set : {rt::Simd::scalar, rt::Simd::avx2, rt::Simd::avx512}) {
+    rt::force_simd(set);
+    const Pose at_a = {{-5 * kMm, 0, 14 * kMm}, Quat::Identity()},
+               at_b = {{5 * kMm, 0, 14 * kMm}, Quat::Identity()};
+    Pair pair(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b);
+    for (std::size_t n = 0; n < 500; ++n) {
+      const double t = 0.01 * static_cast<double>(n);
+      pair.step({{(-5 + 2 * t) * kMm, 0, (14 - 2 * t) * kMm}, turn_about({1, 0.4, 0}, 0.3 * t)},
+                {{(5 - 2 * t) * kMm, 0, (14 - 1.5 * t) * kMm}, turn_about({0, 1, 0}, -0.1 * t)});
+      met = met || pair.touch_a.meets;
+      if (set == rt::Simd::scalar) {
+        for (const Vec3& one : {pair.touch_a.stretch, pair.touch_a.turn, pair.touch_b.stretch,
+                                pair.touch_b.turn, pair.touch_a.pushed})
+          first.push_back(one);
+        continue;
+      }
+      ASSERT_EQ(pair.touch_a.stretch, first[5 * n]) << n;
+      ASSERT_EQ(pair.touch_a.turn, first[5 * n + 1]) << n;
+      ASSERT_EQ(pair.touch_b.stretch, first[5 * n + 2]) << n;
+      ASSERT_EQ(pair.touch_b.turn, first[5 * n + 3]) << n;
+      ASSERT_EQ(pair.touch_a.pushed, first[5 * n + 4]) << n;
+    }
+  }
+  rt::force_simd(best);
+  EXPECT_TRUE(met);
+}
+
+TEST(TwoTools, TakeNeitherMemoryNorLock) {
+  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const Pose at_a = {{-5 * kMm, 0, 14 * kMm}, Quat::Identity()},
+             at_b = {{5 * kMm, 0, 14 * kMm}, Quat::Identity()};
+  Pair pair(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b);
+  const test::RtGuard guard;
+  int met = 0;
+  for (int n = 0; n < 400; ++n) {
+    pair.step({{(-5 + 0.02 * n) * kMm, 0, 13 * kMm}, turn_about({1, 0.4, 0}, 0.2)},
+              {{(5 - 0.02 * n) * kMm, 0, 13 * kMm}, Quat::Identity()});
+    met += pair.touch_a.meets ? 1 : 0;
+  }
+  const long allocations = guard.allocations(), locks = guard.locks();
+  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(locks, 0);
+  EXPECT_GT(met, 50);
+}
+
+// ---- the distance of two parts
+
+// Against the least distance of many points of one core to the other shape.
+TEST(PartGap, IsTheLeastDistanceOfACoreToTheOtherShape) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const Shape others[] = {{ShapeKind::ball, 0, 0, 0, 1.5},
+                          {ShapeKind::capsule, 0, 0, 6, 1},
+                          {ShapeKind::cylinder, 2, 0, 3, 0.3},
+                          {ShapeKind::frustum, 2, 0.5, 4, 0.2},
+                          {ShapeKind::box, 3, 0.4, 6, 0.1}};
+  for (const Shape& shape : others)
+    for (int n = 0; n < 100; ++n) {
+      const auto turn = [&] {
+        return turn_about({any(random), any(random), any(random)}, 3 * any(random));
+      };
+      const PartPlace a = {{ShapeKind::capsule, 0, 0, 5, 0.7},
+                           9 * Vec3(any(random), any(random), any(random)),
+                           turn()},
+                      b = {shape, Vec3(any(random), any(random), any(random)), turn()};
+      const PartGap gap = part_gap(a, b), back = part_gap(b, a);
+      double least = std::numeric_limits<double>::infinity();
+      for (int s = 0; s <= 4000; ++s) {
+        const Vec3 p = a.middle + a.turn * Vec3(0, 0, -5 + 10.0 * s / 4000);
+        least = std::min(least,
+                         tool::distance(shape, b.turn.conjugate() * Vec3(p - b.middle)).phi - 0.7);
+      }
+      if (least < -0.6) continue;  // cores that cross have no one nearest point
+      EXPECT_NEAR(gap.gap, least, 1e-5) << static_cast<int>(shape.kind) << " " << n;
+      EXPECT_LE(gap.gap, least + 1e-9);
+      EXPECT_NEAR(gap.normal.norm(), 1, 1e-9);
+      EXPECT_NEAR((gap.a - gap.b - gap.gap * gap.normal).norm(), 0, 1e-6);
+      EXPECT_NEAR(back.gap, gap.gap, 1e-6);
+      EXPECT_NEAR((back.normal + gap.normal).norm(), 0, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace burr::haptics
