@@ -148,6 +148,73 @@ TEST_F(LeaderTest, AnArmWithoutBodyForcesGetsTheWrenchAboutItsBase) {
   EXPECT_NEAR(torque.z(), 0.1 * -1 - 0.2 * 1, 1e-12);
 }
 
+// Where the user says that the arm takes one: the torque is turned into the frame of the arm's end, or
+// comes about the base with the moment of the force; and it is never above what was said.
+TEST_F(LeaderTest, ATorqueGoesOutInTheFrameThatTheArmTakes) {
+  for (const bool body : {true, false}) {
+    FakeCrtkArm arm(domain_, "/arm", {.body = body});
+    const Quat turn(Eigen::AngleAxisd(1.1, Vec3(1, -2, 0.5).normalized()));
+    const Vec3 place(0.1, 0.2, 0.3), force(1, -1, 0.5), torque(0.02, 0.05, -0.03);
+    arm.with([&](Commands& w) { w.place = {place, turn}; });
+    LeaderSettings settings = here();
+    std::string asked;
+    settings.takes_torque = [&asked](const std::string& name) {
+      asked = name;
+      return 0.1;
+    };
+    Leader wire(settings);
+    const auto spec = wire.connect();
+    ASSERT_TRUE(spec.ok()) << spec.error().text;
+    EXPECT_EQ(asked, "/arm");
+    EXPECT_EQ(spec->peak_torque, 0.1);
+    EXPECT_EQ(spec->actuated, 6);
+    ASSERT_TRUE(soon([&] { return (next(wire).world_from_tool.p - place).norm() < 1e-12; }));
+    const auto arrives = [&](const Vec3& push, const Vec3& about_end) {
+      const Vec3 seen_force = body ? Vec3(turn.conjugate() * push) : push;
+      const Vec3 seen =
+          body ? Vec3(turn.conjugate() * about_end) : Vec3(place.cross(push) + about_end);
+      Vec3 came_force = Vec3::Zero(), came = Vec3::Zero();
+      EXPECT_TRUE(soon([&] {
+        arm.with([&](Commands& w) {
+          came_force = w.force;
+          came = w.torque;
+          return 0;
+        });
+        return (came_force - seen_force).norm() < 1e-9 && (came - seen).norm() < 1e-9;
+      })) << body
+          << ": " << came_force.transpose() << ", " << came.transpose();
+    };
+    wire.write_torque(torque);
+    ASSERT_TRUE(wire.write(force));
+    arrives(force, torque);
+    wire.write_torque(10 * torque);
+    ASSERT_TRUE(wire.write(force));
+    arrives(force, torque * (0.1 / torque.norm()));
+    wire.write_torque(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+    ASSERT_TRUE(wire.write(force));
+    arrives(force, Vec3::Zero());
+    wire.write_torque(torque);
+    ASSERT_TRUE(wire.write(force));
+    arrives(force, torque);
+    wire.disconnect();
+    arrives(Vec3::Zero(), Vec3::Zero());
+  }
+}
+
+TEST_F(LeaderTest, AnArmOfWhichNothingIsSaidGetsNoTorque) {
+  FakeCrtkArm arm(domain_);
+  Leader wire(here());
+  const auto spec = wire.connect();
+  ASSERT_TRUE(spec.ok());
+  EXPECT_EQ(spec->peak_torque, 0);
+  EXPECT_EQ(spec->actuated, 3);
+  ASSERT_TRUE(soon([&] { return next(wire).valid; }));
+  wire.write_torque({0.1, 0, 0});
+  ASSERT_TRUE(wire.write({0, 1, 0}));
+  EXPECT_TRUE(soon([&] { return (arm.force() - Vec3(0, 1, 0)).norm() < 1e-9; }));
+  EXPECT_EQ(arm.with([](Commands& w) { return w.torque; }), Vec3::Zero());
+}
+
 TEST_F(LeaderTest, GripperAndPedalsMillAndLift) {
   FakeCrtkArm arm(domain_);
   Leader wire(here());

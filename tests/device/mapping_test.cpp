@@ -29,7 +29,12 @@ class Stub final : public Device {
   Vec3 pushed = Vec3::Zero(), twisted = Vec3::Zero();
 
  private:
-  DeviceSpec spec_{.max_stiffness = 800, .max_damping = 4, .simulated = false};
+  DeviceSpec spec_{.max_stiffness = 800,
+                   .max_damping = 4,
+                   .max_turn_stiffness = 0.2,
+                   .turn_damping = 1e-3,
+                   .lever = 0.05,
+                   .simulated = false};
 };
 
 const Vec3 kStart = {0.01, 0.02, 0.03};
@@ -84,6 +89,32 @@ TEST(MappedHand, AScaledHandFeelsNoWallStifferThanItCanShow) {
     EXPECT_NEAR(felt, 800, 1e-6) << scale;
     EXPECT_NEAR(laid.hand->spec().max_damping * scale, 4, 1e-12);
   }
+}
+
+// Work at the hand is 1 / scale of that in the world, by force and by torque alike.
+TEST(MappedHand, AScaledHandDoesTheSameShareOfWorkInBothWays) {
+  for (const double scale : {0.5, 4.0}) {
+    Laid laid({.scale = scale});
+    const DeviceSpec& spec = laid.hand->spec();
+    EXPECT_EQ(spec.scale, scale);
+    EXPECT_NEAR(spec.max_turn_stiffness, 0.2 * scale, 1e-15);
+    EXPECT_NEAR(spec.turn_damping, 1e-3 * scale, 1e-15);
+    EXPECT_NEAR(spec.lever, 0.05 * scale, 1e-15);
+  }
+}
+
+// A jammed tool gives a couple without a force: the axes wait for it too.
+TEST(MappedHand, TheAxesDoNotTurnUnderATorque) {
+  Laid laid;
+  static_cast<void>(laid.tip());
+  laid.hand->write_torque({0.01, 0, 0});
+  laid.hand->write_force(Vec3::Zero());
+  laid.hand->set_axes(Quat::Identity());
+  const Quat before = laid.hand->state(1e-3).world_from_tool.q;
+  EXPECT_EQ(laid.hand->state(1e-3).world_from_tool.q.coeffs(), before.coeffs());
+  EXPECT_LT(before.angularDistance(kTurn), 1e-7);
+  laid.hand->write_force(Vec3::Zero());
+  EXPECT_LT(laid.hand->state(1e-3).world_from_tool.q.angularDistance(Quat::Identity()), 1e-7);
 }
 
 TEST(MappedHand, RefusesAScaleThatMakesNoSense) {

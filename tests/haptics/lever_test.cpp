@@ -10,6 +10,8 @@
 #include <random>
 #include <string>
 
+#include "burr/haptics/safety/coupling.h"
+
 namespace burr::haptics {
 namespace {
 
@@ -19,12 +21,13 @@ constexpr double kMass = 0.09, kInertia = 1e-4, kTurnStiffness = 0.3;
 constexpr Wrist kWrist = {.damping = 1, .turn_damping = 1e-3, .delay = 0, .rate_hz = 1000};
 
 // One step of the plane (place, speed, angle, rate), with the spring's force held for the tick.
-Eigen::Matrix4d step_of(const Wrist& wrist, double k_t, double k_r, double lever, bool turns) {
+Eigen::Matrix4d step_of(const Wrist& wrist, double k_t, double k_r, double lever, bool turns,
+                        double inertia = kInertia) {
   const double T = 1 / wrist.rate_hz;
   Eigen::Matrix4d free = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, 2> pushed = Eigen::Matrix<double, 4, 2>::Zero();
-  const auto axis = [&](int at, int input, double inertia, double damping) {
-    const double decay = std::exp(-damping * T / inertia), time = inertia / damping;
+  const auto axis = [&](int at, int input, double mass, double damping) {
+    const double decay = std::exp(-damping * T / mass), time = mass / damping;
     free(at, at) = 1;
     free(at, at + 1) = time * (1 - decay);
     free(at + 1, at + 1) = decay;
@@ -32,7 +35,7 @@ Eigen::Matrix4d step_of(const Wrist& wrist, double k_t, double k_r, double lever
     pushed(at + 1, input) = (1 - decay) / damping;
   };
   axis(0, 0, kMass, wrist.damping);
-  axis(2, 1, kInertia, wrist.turn_damping);
+  axis(2, 1, inertia, wrist.turn_damping);
   // the tip is at place + lever * angle
   Eigen::Matrix<double, 2, 4> force = Eigen::Matrix<double, 2, 4>::Zero();
   force(0, 0) = -k_t;
@@ -50,11 +53,11 @@ bool dies_away(const Eigen::Matrix4d& step) {
   return all.cwiseAbs().maxCoeff() <= 1 + 1e-9;
 }
 
-double border(const Wrist& wrist, double k_r, double lever, bool turns) {
+double border(const Wrist& wrist, double k_r, double lever, bool turns, double inertia = kInertia) {
   double low = 1, high = 20'000;
   while (high - low > 1e-3 * low) {
     const double middle = 0.5 * (low + high);
-    (dies_away(step_of(wrist, middle, k_r, lever, turns)) ? low : high) = middle;
+    (dies_away(step_of(wrist, middle, k_r, lever, turns, inertia)) ? low : high) = middle;
   }
   return low;
 }
@@ -90,6 +93,43 @@ TEST(Lever, AChosenSpringKeepsItsMargin) {
   EXPECT_EQ(soft.stiffness, 100);
   EXPECT_EQ(soft.turn_stiffness, 0.1);
   EXPECT_EQ(stiffest_at_lever(kWrist, 3, 0.1), 0) << "stiffer than turning alone allows";
+}
+
+// What coupling.h chooses for a device is stable in the exact plane of that device.
+TEST(Coupling, IsBelowTheBorderOfTheDeviceAndNoStifferThanAsked) {
+  for (const double damping : {0.0, 2e-4, 1e-3})
+    for (const double lever : {0.0, 0.03, 0.12}) {
+      device::DeviceSpec device;
+      device.peak_torque = 0.2;
+      device.max_stiffness = 1000;
+      device.turn_damping = damping;
+      device.lever = lever;
+      const Coupling springs = coupling_of(device, 5000, 1000);
+      EXPECT_EQ(springs.measured, damping > 0);
+      const double bears = damping > 0 ? 2 * damping * 1000 : 0.3;  // C
+      EXPECT_NEAR(springs.turn_stiffness, std::min(damping > 0 ? 0.3 : 0.1, bears / 3), 1e-12);
+      const Wrist wrist = {.damping = 0.5e-3 * 1000 / 0.7,
+                           .turn_damping = 0.5e-3 * bears,
+                           .delay = 0,
+                           .rate_hz = 1000};
+      // exact where inertia and damping are in proportion; any other inertia bears more
+      const double even = kMass * wrist.turn_damping / wrist.damping;
+      const double edge = border(wrist, springs.turn_stiffness, lever, true, even);
+      for (const double times : {0.3, 3.0})
+        EXPECT_GT(border(wrist, springs.turn_stiffness, lever, true, times * even), 0.98 * edge);
+      EXPECT_NEAR(springs.border, edge, 0.02 * edge) << damping << " " << lever;
+      EXPECT_NEAR(springs.stiffness, std::min(1000.0, 0.7 * springs.border), 1e-6);
+      EXPECT_NEAR(springs.lever * springs.lever * springs.stiffness, springs.turn_stiffness, 1e-12);
+      EXPECT_EQ(coupling_of(device, 5, 1000).stiffness, 5);
+    }
+  device::DeviceSpec table;
+  table.peak_torque = 0.2;
+  table.max_turn_stiffness = 0.04;
+  EXPECT_EQ(coupling_of(table, 1000, 1000).turn_stiffness, 0.04);
+  const Coupling pushes = coupling_of(device::DeviceSpec(), 5000, 1000);
+  EXPECT_EQ(pushes.stiffness, 1000);
+  EXPECT_EQ(pushes.turn_stiffness, 0);
+  EXPECT_EQ(pushes.lever, 0);
 }
 
 TEST(Lever, ALimitedWrenchKeepsItsLine) {

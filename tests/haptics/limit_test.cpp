@@ -245,6 +245,63 @@ TEST(TorqueLimit, FadesAndComesBackWithTheForce) {
   }
 }
 
+// Force and torque of a contact: 0.2 N m and 4 N.
+TEST(WrenchLimit, OneFactorMakesBothSmallerAndEachGrowsAtItsOwnRate) {
+  const device::DeviceSpec spec = {.peak_force = 4, .continuous_force = 4, .peak_torque = 0.2};
+  ForceLimit limit(spec, {.user_force = 4});
+  std::uint32_t flags = 0;
+  const auto tick = [&](const Vec3& force, const Vec3& torque, const Vec3& twist = Vec3::Zero()) {
+    flags = 0;
+    return limit.apply({force, torque}, twist, kTick, flags);
+  };
+  const Vec3 z = Vec3::UnitZ(), x = Vec3::UnitX();
+  for (int n = 0; n < 20; ++n) {
+    const Wrench none = tick(Vec3::Zero(), 0.1 * x);
+    EXPECT_EQ(none.torque, Vec3::Zero().eval()) << "a couple that is already there waits as well";
+  }
+  static_cast<void>(tick(Vec3::Zero(), 0.03 * x, 0.03 * x));  // the motor's twist does not
+  EXPECT_TRUE(limit.engaged());
+  Wrench last;
+  for (int n = 0; n < 600; ++n) {
+    const Wrench now = tick(2 * z, 0.4 * x);
+    EXPECT_LE((now.force - last.force).norm(), 300 * kTick + 1e-12);
+    EXPECT_LE((now.torque - last.torque).norm(), 0.05 * 300 * kTick + 1e-12);
+    last = now;
+  }
+  EXPECT_NEAR((last.force - 1 * z).norm(), 0, 1e-12) << "the torque is at its limit";
+  EXPECT_NEAR((last.torque - 0.2 * x).norm(), 0, 1e-12);
+  EXPECT_NE(flags & rt::kFlagForceLimited, 0U);
+  for (int n = 0; n < 100; ++n) last = tick(8 * z, 0.1 * x);
+  EXPECT_NEAR((last.force - 4 * z).norm(), 0, 1e-12);
+  EXPECT_NEAR((last.torque - 0.05 * x).norm(), 0, 1e-12);
+  for (int n = 0; n < 100; ++n) last = tick(2 * z, 0.1 * x);
+  EXPECT_EQ(flags & rt::kFlagForceLimited, 0U);
+  EXPECT_NEAR((last.torque - 0.1 * x).norm(), 0, 1e-12);
+  // not a number in either: both fade
+  last = tick(2 * z, Vec3(0, kNaN, 0));
+  EXPECT_NEAR((last.force - 1.6 * z).norm(), 0, 1e-12);
+  EXPECT_NEAR((last.torque - 0.08 * x).norm(), 0, 1e-12);
+  for (int n = 0; n < 4; ++n) last = tick(2 * z, 0.1 * x);
+  EXPECT_EQ(last.force, Vec3::Zero().eval());
+  EXPECT_EQ(last.torque, Vec3::Zero().eval());
+  EXPECT_FALSE(limit.engaged());
+}
+
+TEST(WrenchLimit, ATurnThatNoHandMakesIsAJumpWhereTheHandIsTurned) {
+  for (const double torque : {0.0, 0.2}) {
+    ForceLimit limit({.peak_torque = torque}, {});
+    device::HandState hand;
+    std::uint32_t flags = 0;
+    EXPECT_TRUE(limit.accept_reading(hand, flags));
+    hand.world_from_tool.q = math::Quat(Eigen::AngleAxisd(0.4, Vec3::UnitX()));
+    EXPECT_TRUE(limit.accept_reading(hand, flags));
+    hand.world_from_tool.q = math::Quat(Eigen::AngleAxisd(1.0, Vec3::UnitX()));
+    EXPECT_EQ(limit.accept_reading(hand, flags), torque == 0);
+    EXPECT_EQ((flags & rt::kFlagJump) != 0, torque > 0);
+    EXPECT_TRUE(limit.accept_reading(hand, flags)) << "where it is now";
+  }
+}
+
 TEST(TorqueLimit, WhatCannotTurnTheHandIsNotAskedTo) {
   ForceLimit limit = running();
   std::uint32_t flags = 0;

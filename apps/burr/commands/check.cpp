@@ -10,13 +10,16 @@
 
 #include "bench/machine_trial.h"
 #include "burr/rt/machine_check.h"
+#include "burr/workshop/hand_device.h"
 #include "commands/command.h"
 #include "commands/json_line.h"
+#include "devices/springs_words.h"
 
 namespace burr::app {
 namespace {
 
 struct Options : MachineTrial {
+  workshop::HandRequest hand;
   bool json = false;
 };
 
@@ -41,7 +44,7 @@ void print_row(const char* what, const rt::TickSummary& t, bool works) {
 }
 
 void print(const rt::MachineMeasurements& seen, const rt::MachineReport& judged,
-           const std::vector<std::string>& left_out) {
+           const std::vector<std::string>& left_out, const std::vector<std::string>& device) {
   for (const rt::CheckLine& line : judged.lines) {
     fmt::print("{:<16} {}\n", line.what, line.value);
     if (!line.change.empty()) fmt::print("{:<16}   change: {}\n", "", line.change);
@@ -55,11 +58,12 @@ void print(const rt::MachineMeasurements& seen, const rt::MachineReport& judged,
   print_row("waiting, all else at work", seen.waiting_loaded, false);
   print_row("milling, all else at work", seen.milling_loaded, true);
   for (const std::string& sentence : left_out) fmt::print("{}\n", sentence);
+  for (const std::string& sentence : device) fmt::print("{}\n", sentence);
   fmt::print("\n{}\n", judged.sentence);
 }
 
 void print_json(const rt::MachineMeasurements& seen, const rt::MachineReport& judged,
-                const std::vector<std::string>& left_out) {
+                const std::vector<std::string>& left_out, const std::vector<std::string>& device) {
   const rt::Machine& m = seen.machine;
   nlohmann::json out;
   out["verdict"] = rt::name(judged.verdict);
@@ -88,17 +92,31 @@ void print_json(const rt::MachineMeasurements& seen, const rt::MachineReport& ju
   for (const rt::CheckLine& line : judged.lines)
     out["lines"].push_back({{"what", line.what}, {"is", line.value}, {"change", line.change}});
   out["left_out"] = left_out;
+  if (!device.empty()) out["device"] = device;
   fmt::print("{}\n", json_line(out));
 }
 
+// What the device can do about the torque of a contact; nothing moves and no force is sent.
+Result<std::vector<std::string>> device_words(const workshop::HandRequest& hand) {
+  if (hand.device.empty()) return std::vector<std::string>();
+  auto laid = workshop::open_hand(hand, {}, math::Quat::Identity());
+  if (!laid) return laid.error();
+  std::vector<std::string> words = springs_words(laid->hand->spec());
+  words.insert(words.begin(), laid->id + ":");
+  laid->hand->close();
+  return words;
+}
+
 Status run(const Options& options) {
+  const auto device = device_words(options.hand);
+  if (!device) return device.error();
   auto measured = measure_machine(options);
   if (!measured) return measured.error();
   const rt::MachineReport judged = rt::judge(measured->seen);
   if (options.json) {
-    print_json(measured->seen, judged, measured->left_out);
+    print_json(measured->seen, judged, measured->left_out, *device);
   } else {
-    print(measured->seen, judged, measured->left_out);
+    print(measured->seen, judged, measured->left_out, *device);
   }
   return fine();
 }
@@ -115,6 +133,8 @@ void add(CLI::App& app, Todo& todo) {
                    "voxel edge of the built-in bone that is milled")
       ->check(CLI::Range(0.1, 1.0))
       ->capture_default_str();
+  command->add_option("--device", options->hand.device,
+                      "also say what this haptic device does with the torque of a contact");
   command->add_flag("!--no-picture", options->picture, "draw no picture during the measurement");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

@@ -13,6 +13,7 @@
 #include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
+#include "devices/springs_words.h"
 #include "devices/trial.h"
 
 namespace burr::app {
@@ -55,6 +56,7 @@ Status tell(const workshop::HandKind& kind, const std::string& name,
                  {"peak_force_N", spec.peak_force},
                  {"continuous_force_N", spec.continuous_force},
                  {"peak_torque_Nm", spec.peak_torque},
+                 {"torque_felt", spec.peak_torque > 0},
                  {"stiffness_N_m", spec.max_stiffness},
                  {"damping_N_s_m", spec.max_damping},
                  {"workspace_mm", 1e3 * spec.workspace_radius},
@@ -74,6 +76,8 @@ Status tell(const workshop::HandKind& kind, const std::string& name,
       preferences.mapping.scale,
       preferences.max_force_n > 0 ? fmt::format(", your limit {:g} N", preferences.max_force_n)
                                   : "");
+  for (const std::string& sentence : springs_words(spec))
+    fmt::print("                 {}\n", sentence);
   if (!trouble.empty()) fmt::print("                 {}\n", trouble);
   return fine();
 }

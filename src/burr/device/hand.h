@@ -46,8 +46,16 @@ struct DeviceSpec {
   double peak_torque = 0;          // about the tip; 0: it cannot give torque [N m]
   // limit on heating above continuous_force: integral of F^2 - F_cont^2 over time [N^2 s]
   double thermal_budget = 3.3 * 3.3 * 5;
-  double max_stiffness = 1000;      // stiffest wall it can show without shaking [N/m]
-  double max_damping = 5;           // likewise [N s/m]
+  double max_stiffness = 1000;  // stiffest wall it can show without shaking [N/m]
+  double max_damping = 5;       // likewise [N s/m]
+  // For devices with torque; 0: not known, or none.
+  double max_turn_stiffness = 0;    // stiffest spring of turning it can show [N m/rad]
+  double turn_damping = 0;          // its own damping when it is turned; only if measured
+                                    // [N m s/rad]
+  double lever = 0;                 // from where it pushes to the tip; drivers put the tip there,
+                                    // so 0 [m]
+  double scale = 1;                 // movement of the tip / movement of the hand; a torque of the
+                                    // world is felt as 1 / scale times as much
   double workspace_radius = 75e-3;  // radius of the hand's own movement about its middle [m]
   double native_rate = 1000;        // tick rate that suits it best [Hz]
   double loss_timeout = 20e-3;      // time without a tick after which the force fades to zero. Real

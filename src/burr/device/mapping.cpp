@@ -40,6 +40,10 @@ Status MappedHand::set(const MappingSettings& settings) {
   spec_ = device_->spec();
   spec_.max_stiffness /= settings_.scale;
   spec_.max_damping /= settings_.scale;
+  spec_.max_turn_stiffness *= settings_.scale;
+  spec_.turn_damping *= settings_.scale;
+  spec_.lever *= settings_.scale;
+  spec_.scale = settings_.scale;
   return fine();
 }
 
@@ -62,12 +66,13 @@ HandState MappedHand::state(double dt) BURR_RT {
   const bool lifted = asleep || (hand.buttons & kLifted) != 0 ||
                       lifted_.load(std::memory_order_relaxed) || down(settings_.clutch_button);
   if (turns_.take(requested_axes_)) requested_ = requested_axes_ * settings_.axes;
-  const bool turns = forced_ == Vec3::Zero() && turn_.coeffs() != requested_.coeffs();
+  const bool rests = forced_ == Vec3::Zero() && twisted_ == Vec3::Zero();
+  const bool turns = rests && turn_.coeffs() != requested_.coeffs();
   if (lifted || !anchored_ || turns) {
     at_ = tip_;
     from_ = raw;
     anchored_ = true;
-    if (forced_ == Vec3::Zero()) turn_ = requested_;
+    if (rests) turn_ = requested_;
   }
   tip_ = at_ + settings_.scale * (turn_ * (raw - from_));
   held_ = turn_ * hand.world_from_tool.q;
@@ -84,6 +89,8 @@ HandState MappedHand::state(double dt) BURR_RT {
 
 void MappedHand::write_force(const Vec3& force) BURR_RT {
   forced_ = force;
+  twisted_ = torque_;
+  torque_ = Vec3::Zero();
   device_->write_force(turn_.conjugate() * force);
 }
 

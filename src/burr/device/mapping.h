@@ -5,8 +5,10 @@
 //
 // A wall of stiffness k at the tip is felt as scale * k by the hand. So the specification that
 // touch sees has its stiffness and damping divided by scale: no wall is stiffer than the device can
-// show. Turning the view turns the hand's axes as soon as the force is zero; it never moves the
-// tip.
+// show. Turning is not scaled. A move in the world does scale times the work of the hand's move; so
+// that a turn does too, a torque of the world is felt divided by scale (DeviceSpec::scale; the tick
+// divides), and the device's numbers of turning are multiplied by it. Turning the view turns the
+// hand's axes as soon as force and torque are zero; it never moves the tip.
 //
 // Thread: set_axes() main; lift() any; the rest as Device. Frames: inside, the device's own as its
 // driver states it, x right, y up, z to the user; outside, world (LPS).
@@ -55,6 +57,7 @@ class MappedHand final : public Device {
   [[nodiscard]] HandState state(double dt) BURR_RT override;
   void write_force(const math::Vec3& force) BURR_RT override;
   void write_torque(const math::Vec3& torque) BURR_RT override {
+    torque_ = torque;
     device_->write_torque(turn_.conjugate() * torque);
   }
   void scale_force(double scale) BURR_RT override { device_->scale_force(scale); }
@@ -78,7 +81,8 @@ class MappedHand final : public Device {
   math::Quat turn_, requested_;                // world_from_device
   math::Vec3 at_, from_ = math::Vec3::Zero();  // the tip and the hand at the same moment
   math::Vec3 tip_;
-  math::Vec3 forced_ = math::Vec3::Zero();
+  math::Vec3 forced_ = math::Vec3::Zero(), twisted_ = math::Vec3::Zero();
+  math::Vec3 torque_ = math::Vec3::Zero();  // of the next force
   math::Quat held_ = math::Quat::Identity();
   bool anchored_ = false;
   bool open_ = false;

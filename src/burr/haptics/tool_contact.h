@@ -28,6 +28,8 @@ struct ToolContact {
   bool by_part = false;  // the loads are known part by part: `head`, `torque`, `contacts`
   // The part of the stretch that the contacts of cutting parts carry.  [m]
   math::Vec3 head = math::Vec3::Zero();
+  // L of the spring of turning: k_r = k_t L^2.  [m]
+  double lever = 0;
   // About the tool's origin, over k_t.  [m^2]
   math::Vec3 torque = math::Vec3::Zero();
   // How the tool is turned away from the hand, as a rotation vector.  [rad]

@@ -89,7 +89,7 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   std::unique_ptr<Session> session(new Session(std::move(bone), std::move(device), settings));
   const device::DeviceSpec& spec = session->device_->spec();
   tick::ServoSettings capped = servo;
-  capped.force.stiffness = std::min(servo.force.stiffness, spec.max_stiffness);
+  capped.force.stiffness = tick::coupling_of(spec, servo).stiffness;
   capped.force.damping = std::min(servo.force.damping, spec.max_damping);
   session->settings_.servo = capped;
   session->surface_ = std::make_unique<volume::IsoVertices>(*session->bone_, settings.surface,

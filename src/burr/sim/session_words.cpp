@@ -94,6 +94,11 @@ const Entry kEntries[] = {
     BURR_ENTRY("device_thermal_budget_n2_s", device.thermal_budget, 0, 1e9),
     BURR_ENTRY("device_max_stiffness_n_per_m", device.max_stiffness, 0, 1e6),
     BURR_ENTRY("device_max_damping_n_s_per_m", device.max_damping, 0, 1e4),
+    BURR_ENTRY("device_max_turn_stiffness_nm_per_rad", device.max_turn_stiffness, 0, 1e3, true),
+    BURR_ENTRY("device_turn_damping_nm_s_per_rad", device.turn_damping, 0, 1e3, true),
+    BURR_ENTRY("device_lever_m", device.lever, 0, 10, true),
+    BURR_ENTRY("device_scale", device.scale, 1e-3, 1e3, true),
+    BURR_ENTRY("turn_hand", settings.servo.turn_hand, 0, 1, true),
 };
 #undef BURR_ENTRY
 
@@ -102,6 +107,7 @@ Recorded older() {
   Recorded all;
   all.settings.servo.wedge = 0;     // no limit
   all.settings.servo.slip_m_s = 0;  // no limit
+  all.settings.servo.turn_hand = false;
   return all;
 }
 

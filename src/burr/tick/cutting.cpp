@@ -65,6 +65,8 @@ Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
   const haptics::Touch& touch = hand_.touch();
   const double share = 1 - std::exp(-2 * M_PI * settings_.drag_hz * dt_);
   drag_ += share * (settings_.drag_gain * now_.drag - drag_);
+  moment_ += share * (settings_.drag_gain * cut_moment_ - moment_);
+  drag_share_ = 0;
   const double ratio =
       last_push_ > 0 ? settings_.drag_gain * math::norm(now_.drag) / last_push_ : 0;
   drag_ratio_ += share * (ratio - drag_ratio_);
@@ -80,6 +82,7 @@ Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
   double gain = std::min(1.0, most / is);
   if (tooth_is_carried())
     gain *= 1 + std::min(1.0, settings_.drag_gain * now_.ripple / is) * std::cos(tooth_phase_);
+  drag_share_ = gain;
   return gain * along;
 }
 
@@ -91,6 +94,11 @@ Vec3 Cutting::vibration() BURR_RT {
   if (hand_.touch().touching) now.normal = hand_.touch().normal;
   now.cutting_force = last_push_;
   return vibration_.step(now, dt_);
+}
+
+Vec3 Cutting::moment() const BURR_RT {
+  const Vec3 axis = hand_.axis(), felt = drag_share_ * moment_;
+  return felt - math::dot(felt, axis) * axis;
 }
 
 // tool/spindle.h; felt where the device can turn the hand: as the tip is where the device pushes,
@@ -154,6 +162,7 @@ void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64
   cut_normal_ = now.normal;
   last_push_ = push;
   now_ = {};
+  cut_moment_ = Vec3::Zero();
   if (shaped() != nullptr) {
     cut_shaped(push, may, flags, path_mark);
     return;

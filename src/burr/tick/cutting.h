@@ -47,6 +47,9 @@ class Cutting {
   [[nodiscard]] math::Vec3 drag(const math::Vec3& touched) BURR_RT;
   // Of the spindle's vibration [N].
   [[nodiscard]] math::Vec3 vibration() BURR_RT;
+  // Of the bone on a tool of any shape about its tip, across the shaft: along it the motor takes it.
+  // After drag() [N m].
+  [[nodiscard]] math::Vec3 moment() const BURR_RT;
   // Of the motor on the handpiece [N m].
   [[nodiscard]] math::Vec3 torque() const BURR_RT;
 
@@ -117,6 +120,9 @@ class Cutting {
   double last_push_ = 0;                        // of touch alone, along the normal [N]
   math::Vec3 drag_ = math::Vec3::Zero();        // of the bone on the burr, as the hand gets it [N]
   double drag_ratio_ = 0;                       // over the push, likewise
+  math::Vec3 cut_moment_ = math::Vec3::Zero();  // of the last cut of a shaped tool [N m]
+  math::Vec3 moment_ = math::Vec3::Zero();      // the same, as slow as drag_
+  double drag_share_ = 0;                       // of drag_ that the hand got in this tick
   double tooth_phase_ = 0;                      // [rad]
   double untouched_ = 0;                        // since the last contact of the open stroke [s]
   bool deposited_ = false;

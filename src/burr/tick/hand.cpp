@@ -19,8 +19,10 @@ Hand::Hand(device::Device& device, haptics::Proxy& constraint, const haptics::Fo
       dt_(1.0 / settings.rate_hz),
       blend_(1 - std::exp(-2 * M_PI * settings.velocity_filter_hz * dt_)),
       guarded_(settings.guarded),
+      turned_(settings.turned && device.spec().peak_torque > 0),
       guard_({.slack = settings.guard_slack,
-              .largest_force = std::min(device.spec().peak_force, settings.limit.user_force)}),
+              .largest_force = std::min(device.spec().peak_force, settings.limit.user_force),
+              .largest_torque = most_torque(settings.limit.user_force)}),
       limit_(device.spec(), settings.limit) {}
 
 bool Hand::read(bool lost, std::uint32_t& flags) BURR_RT {
@@ -89,8 +91,13 @@ Vec3 Hand::limit_energy(const Vec3& wanted, bool begins_anew, std::uint32_t& fla
   if (touch_.touching) now.stretch = touch_.depth * touch_.normal + touch_.tangential;
   now.stiffness = force_.stiffness;
   now.force = wanted;
+  now.hand_turn = state_.world_from_tool.q;
+  if (parts_ != nullptr) {
+    now.torque = contact_torque();
+    now.turn_stiffness = force_.stiffness * (parts_->lever * parts_->lever);
+  }
   const Vec3 force = guard_.step(now, dt_);
-  if (guard_.damping() > 0) flags |= rt::kFlagGuarded;
+  if (guard_.damping() > 0 || guard_.fades()) flags |= rt::kFlagGuarded;
   return force;
 }
 
@@ -101,18 +108,30 @@ Hand::Sent Hand::send(const Vec3& force, std::uint32_t& flags) BURR_RT {
   return sent;
 }
 
-Hand::Sent Hand::send(const Vec3& force, const Vec3& torque, std::uint32_t& flags) BURR_RT {
+// A ball has no lever: there force and twist are limited each by itself.
+Hand::Sent Hand::send(const Vec3& force, const Beside& beside, std::uint32_t& flags) BURR_RT {
   Sent sent;
-  sent.force = limit_.apply(force, dt_, flags);
-  sent.torque = limit_.apply_torque(torque, dt_, flags);
+  if (turned_ && parts_ != nullptr) {
+    const double per_hand = 1 / device_.spec().scale;  // of work done in the world
+    const Vec3 torque = per_hand * (contact_torque() + beside.moment) + beside.twist;
+    const haptics::Wrench allowed =
+        limit_.apply({force + beside.force, torque}, beside.twist, dt_, flags);
+    sent = {allowed.force, allowed.torque};
+  } else {
+    sent.force = limit_.apply(force + beside.force, dt_, flags);
+    sent.torque = limit_.apply_torque(beside.twist, dt_, flags);
+  }
   device_.write_torque(sent.torque);
   device_.write_force(sent.force);
   return sent;
 }
 
-Vec3 Hand::touch_part(const Vec3& sent, const Vec3& spindle) BURR_RT {
-  const Vec3 touched = limit_.engaged() ? Vec3(sent - spindle) : sent;
-  guard_.sent(touched);
+Vec3 Hand::touch_part(const Sent& sent, const Beside& beside) BURR_RT {
+  const Vec3 touched = limit_.engaged() ? Vec3(sent.force - beside.force) : sent.force;
+  Vec3 turned = sent.torque;
+  const double scale = device_.spec().scale;
+  if (limit_.engaged()) turned -= beside.twist + beside.moment / scale;
+  guard_.sent(touched, turned_ && parts_ != nullptr ? Vec3(scale * turned) : Vec3(Vec3::Zero()));
   return touched;
 }
 
@@ -130,12 +149,20 @@ void Hand::report(const Sent& sent, haptics::Contact& contact) const BURR_RT {
   if (parts_ == nullptr) return;
   if (parts_->rests) contact.flags |= rt::kFlagShaft;
   contact.turn = parts_->turn;
-  contact.unsent_torque = force_.stiffness * parts_->torque;
+  if (!turned_) contact.unsent_torque = contact_torque();
 }
 
 void Hand::set_user_force(double newton) BURR_RT {
   limit_.set_user_force(newton);
   guard_.set_largest_force(std::min(device_.spec().peak_force, newton));
+  guard_.set_largest_torque(most_torque(newton));
+}
+
+// In the proportion of the force, as limit.h has it; 0: none is sent.
+double Hand::most_torque(double user_force) const BURR_RT {
+  const device::DeviceSpec& spec = device_.spec();
+  if (!turned_ || spec.peak_force <= 0) return 0;
+  return spec.scale * spec.peak_torque * std::min(1.0, user_force / spec.peak_force);
 }
 
 }  // namespace burr::tick

@@ -37,6 +37,7 @@ struct HandSettings {
   haptics::LimitSettings limit;
   bool guarded = false;        // by the energy guard
   double guard_slack = 60e-6;  // that the guard lets pass, energy_guard.h               [J]
+  bool turned = true;          // by the torque of a contact, where the device has torque
 };
 
 class Hand {
@@ -84,10 +85,16 @@ class Hand {
     math::Vec3 force = math::Vec3::Zero(), torque = math::Vec3::Zero();
   };
   Sent send(const math::Vec3& force, std::uint32_t& flags) BURR_RT;
-  Sent send(const math::Vec3& force, const math::Vec3& torque, std::uint32_t& flags) BURR_RT;
-  // The part of the sent force that comes from touch; also passed to the energy guard. spindle: the
-  // rest of the sent force.
-  math::Vec3 touch_part(const math::Vec3& sent, const math::Vec3& spindle) BURR_RT;
+  // What acts beside touch: of the cut and the motor.
+  struct Beside {
+    math::Vec3 force = math::Vec3::Zero();   // of the cut and the vibration      [N]
+    math::Vec3 moment = math::Vec3::Zero();  // of the cut about the tip          [N m]
+    math::Vec3 twist = math::Vec3::Zero();   // of the motor about the shaft      [N m]
+  };
+  // The torque of touch goes along where the device can turn the hand.
+  Sent send(const math::Vec3& force, const Beside& beside, std::uint32_t& flags) BURR_RT;
+  // The part of the sent force that comes from touch; also passed to the energy guard.
+  math::Vec3 touch_part(const Sent& sent, const Beside& beside) BURR_RT;
   // What touch found, for the row; adds its flags.
   void report(const Sent& sent, haptics::Contact& contact) const BURR_RT;
 
@@ -142,6 +149,8 @@ class Hand {
   // Neither feels nor cuts, and will not until it was in free air once.
   [[nodiscard]] bool released() const BURR_RT { return !engaged_ || !limit_.engaged(); }
   [[nodiscard]] const device::DeviceSpec& spec() const BURR_RT { return device_.spec(); }
+  // The torque of a contact is sent to it.
+  [[nodiscard]] bool turned() const BURR_RT { return turned_; }
   [[nodiscard]] FaultKeeper& faults() BURR_RT { return faults_; }
 
  private:
@@ -149,6 +158,13 @@ class Hand {
     return tool_ != nullptr ? tool_->is_free(world_from_tool)
                             : constraint_.is_free(world_from_tool.p);
   }
+
+  // Of the contact about the tip, as in the world  [N m]
+  [[nodiscard]] math::Vec3 contact_torque() const BURR_RT {
+    return parts_ == nullptr ? math::Vec3(math::Vec3::Zero())
+                             : math::Vec3(force_.stiffness * parts_->torque);
+  }
+  [[nodiscard]] double most_torque(double user_force) const BURR_RT;
 
   device::Device& device_;
   haptics::Proxy& constraint_;
@@ -158,7 +174,7 @@ class Hand {
   const haptics::ToolContact* parts_ = nullptr;  // of this tick
   double dt_;
   double blend_;  // of the velocity filter, in one tick
-  bool guarded_;
+  bool guarded_, turned_;
   haptics::EnergyGuard guard_;
   haptics::ForceLimit limit_;
   device::HandState state_;

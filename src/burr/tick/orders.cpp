@@ -44,7 +44,7 @@ void Orders::obey(const Command& command, std::uint32_t& flags) BURR_RT {
       settings_.burr.kind = value > 0 ? tool::BurrKind::diamond : tool::BurrKind::cutting;
       break;
     case CommandKind::stiffness:
-      settings_.force.stiffness = std::clamp(value, 0.0, parts_.hand.spec().max_stiffness);
+      set_stiffness(value);
       break;
     case CommandKind::user_force:
       parts_.hand.set_user_force(value);
@@ -88,6 +88,14 @@ void Orders::obey(const Command& command, std::uint32_t& flags) BURR_RT {
 }
 
 // Refused where the larger head has no room.
+void Orders::set_stiffness(double stiffness) BURR_RT {
+  const haptics::Coupling springs =
+      haptics::coupling_of(parts_.hand.spec(), stiffness, settings_.rate_hz);
+  settings_.force.stiffness = springs.stiffness;
+  // k_r stays, so L changes
+  if (parts_.hand.turned() && springs.lever > 0) parts_.touch_by.couple(springs.lever);
+}
+
 void Orders::set_radius(double radius) BURR_RT {
   if (radius < 2 * grid_.voxel || radius > 0.5 * tool::kLargestDiameter + 1e-12) return;
   if (settings_.tool >= 0 || !parts_.touch_by.set_radius(radius)) return;

@@ -45,6 +45,7 @@ class Orders {
 
  private:
   void obey(const Command& command, std::uint32_t& flags) BURR_RT;
+  void set_stiffness(double stiffness) BURR_RT;
   void set_radius(double radius) BURR_RT;
   void set_mode(double mode) BURR_RT;
   void set_law(double law) BURR_RT;

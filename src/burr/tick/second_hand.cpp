@@ -85,6 +85,7 @@ SecondHand::SecondHand(const Shared& shared, device::Device& device,
              .guard_slack = controls_.settings.guard_slack}) {
   if (!tool_) return;
   hand_.use(*tool_, tool_.get());
+  if (hand_.turned()) tool_->couple(coupling_of(hand_.spec(), controls_.settings).lever);
   cutting_ = std::make_unique<Cutting>(shared.surface.bone(), shared.undo, shared.writer, controls_,
                                        hand_, 1);
   cutting_->set_beside(&shared.beside);
@@ -143,10 +144,12 @@ void SecondHand::send() BURR_RT {
     return;
   }
   const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost_ || !usable_, flags);
-  const Vec3 spinning = cutting_->drag(guarded) + cutting_->vibration();
-  const Vec3 torque = usable_ ? cutting_->torque() : Vec3(Vec3::Zero());
-  sent_ = hand_.send(guarded + spinning, torque, flags);
-  touched_ = hand_.touch_part(sent_.force, spinning);
+  Hand::Beside beside;
+  beside.force = cutting_->drag(guarded) + cutting_->vibration();
+  if (usable_) beside.twist = cutting_->torque();
+  if (hand_.turned()) beside.moment = cutting_->moment();
+  sent_ = hand_.send(guarded, beside, flags);
+  touched_ = hand_.touch_part(sent_, beside);
 }
 
 // What the account gains meanwhile is this hand's doing.

@@ -17,7 +17,8 @@ HandSettings hand_settings(const ServoSettings& settings) {
           .velocity_filter_hz = settings.velocity_filter_hz,
           .limit = settings.limit,
           .guarded = settings.guarded,
-          .guard_slack = settings.guard_slack};
+          .guard_slack = settings.guard_slack,
+          .turned = settings.turn_hand && settings.torque_gain > 0};
 }
 
 }  // namespace
@@ -42,6 +43,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       outbox_(bone, changed_, controls_),
       orders_(bone.grid(), {controls_, hand_, touch_by_, cutting_, restore_, outbox_}) {
   hand_.use(touch_by_.now(), touch_by_.tool());
+  if (hand_.turned()) touch_by_.couple(coupling_of(hand_.spec(), controls_.settings).lever);
 }
 
 void Servo::set_second(SecondHand* second) {
@@ -72,10 +74,12 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
 
   // force, bounded, to the hand
   const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost || !usable, flags);
-  const Vec3 spinning = cutting_.drag(guarded) + cutting_.vibration();
-  const Vec3 torque = usable ? cutting_.torque() : Vec3(Vec3::Zero());
-  const Hand::Sent sent = hand_.send(guarded + spinning, torque, flags);
-  const Vec3 touched = hand_.touch_part(sent.force, spinning);
+  Hand::Beside beside;
+  beside.force = cutting_.drag(guarded) + cutting_.vibration();
+  if (usable) beside.twist = cutting_.torque();
+  if (hand_.turned()) beside.moment = cutting_.moment();
+  const Hand::Sent sent = hand_.send(guarded, beside, flags);
+  const Vec3 touched = hand_.touch_part(sent, beside);
   if (second_ != nullptr) second_->send();
 
   // then the bone

@@ -10,6 +10,7 @@
 #include "burr/edit/laws/removal.h"
 #include "burr/edit/mirror.h"
 #include "burr/haptics/force_law.h"
+#include "burr/haptics/safety/coupling.h"
 #include "burr/haptics/safety/limit.h"
 #include "burr/haptics/touch_method.h"
 #include "burr/tick/shed.h"
@@ -39,7 +40,9 @@ struct ServoSettings {
   double drag_gain = 1;        // of the bone's drag on the turning burr in the hand
   double drag_hz = 5;          // it follows no faster, first order: see docs/decisions.md
   double vibration_gain = 0;   // of the spindle in the hand: 1 as haptics/vibration.h says, 0 none
-  double torque_gain = 1;      // of the motor on the hand, where the device can turn it
+  double torque_gain = 1;  // of the motor on the hand, where the device can turn it; 0: no torque
+                           // at all
+  bool turn_hand = true;   // the torque of a contact turns the hand, where the device can
   haptics::LimitSettings limit;
   edit::RemovalSettings removal;
   edit::CarveSettings carve;
@@ -59,6 +62,12 @@ struct ServoSettings {
   double lift_speed = 50e-3;        // of the burr before an undo                             [m/s]
   std::size_t undo_bricks = 16384;  // that all remembered strokes may touch together
 };
+
+// The springs of a contact on this device, at the stiffness that is set.
+[[nodiscard]] inline haptics::Coupling coupling_of(const device::DeviceSpec& device,
+                                                   const ServoSettings& settings) BURR_RT {
+  return haptics::coupling_of(device, settings.force.stiffness, settings.rate_hz);
+}
 
 // What holds in this tick. The orders (orders.h) write it; the other parts of the servo read it.
 struct Controls {

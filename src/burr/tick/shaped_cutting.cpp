@@ -151,7 +151,9 @@ void Cutting::cut_shaped(double push, bool may, std::uint32_t& flags,
     if (!undo_.stroke_open()) undo_.begin_stroke(path_mark, carver_.removed_units());
     const haptics::Touch& touch = hand_.touch();
     const double carried = math::norm(hand_.parts()->head);
-    now_ = by_elements(carried > 0 ? push / carried : 0);
+    const edit::ElementCutting cutting = by_elements(carried > 0 ? push / carried : 0);
+    now_ = cutting;
+    cut_moment_ = cutting.moment;
     edit::Cut cut;
     cut.centre = bone_.grid().grid_from_world(touch.proxy);
     cut.push = bone_.grid().frame.q.conjugate() * (-cut_normal_);

@@ -78,6 +78,11 @@ void TouchMethods::set_max_moves(int moves) BURR_RT {
   if (tool_) tool_->set_max_moves(moves);
 }
 
+void TouchMethods::couple(double lever) BURR_RT {
+  shaft_->couple(lever);
+  if (tool_) tool_->couple(lever);
+}
+
 Vec3 TouchMethods::nowhere() const BURR_RT {
   return bone_.grid().world_from_grid(Vec3::Constant(-1e4));
 }

@@ -48,6 +48,8 @@ class TouchMethods {
   [[nodiscard]] bool take(int number) BURR_RT;
   // Fewer moves of the proxies in a tick take less time.
   void set_max_moves(int moves) BURR_RT;
+  // For a device that can turn the hand: L of its springs (haptics/safety/coupling.h)  [m]
+  void couple(double lever) BURR_RT;
   // False: the one in use does not fit there, and nothing changed.
   [[nodiscard]] bool set_radius(double radius) BURR_RT;
   // Shows the triangles of this tick to the method that needs them.

@@ -24,9 +24,10 @@ namespace burr::workshop {
 
 struct DevicePreferences {
   device::MappingSettings mapping;
-  double max_force_n = 0;  // the user's own limit; 0: the limit of the device  [N]
-  double vibration = 0;    // gain of the spindle's vibration
-  double torque = 1;       // gain of the spindle's torque, for devices that can turn the hand
+  double max_force_n = 0;      // the user's own limit; 0: the limit of the device  [N]
+  double vibration = 0;        // gain of the spindle's vibration
+  double torque = 1;           // gain of the spindle's torque, for devices that can turn the hand
+  double takes_torque_nm = 0;  // for arms that cannot say themselves whether they take any  [N m]
 };
 
 class DeviceBook {

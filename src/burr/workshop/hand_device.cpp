@@ -124,6 +124,12 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandRequest& request) {
     device::crtk::LeaderSettings settings;
     settings.arm = which;
     settings.home_allowed = request.home;
+    settings.takes_torque = [](const std::string& arm) {
+      device::DeviceSpec named;
+      named.name = device::crtk::kArmName;
+      named.serial = arm;
+      return DeviceBook::read(users_book()).of(id_of(named)).takes_torque_nm;
+    };
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::crtk::Leader>(std::move(settings))));
   }

@@ -155,6 +155,7 @@ void pads_leaf(Lines& left, Lines& right, Settings& settings, DeviceLeaf* device
     preference(Word::set_device_vibration, "vibration", preferences.vibration, "%.1f x");
     if (device->turns) preference(Word::set_device_torque, "torque", preferences.torque, "%.1f x");
     left.yes(Word::set_device_dead_man, "device_dead_man", preferences.mapping.dead_man);
+    if (!device->turns) left.remark(Word::set_device_no_torque);
     left.remark(Word::set_device_next);
     device->changed = left.changed() && !before;
   }

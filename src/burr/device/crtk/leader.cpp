@@ -43,6 +43,7 @@ constexpr const char* kPoseType = "geometry_msgs::msg::dds_::PoseStamped_";
 // CRTK has no way to report limits. These are cautious ones for an arm of the size of dVRK's
 // leaders: every such arm and every hand can bear them; the strongest arm could do more.
 constexpr double kPeak = 3, kContinuous = 1;      // [N]
+constexpr double kMostTorque = 0.5;               // that a user may name [N m]
 constexpr double kStiffness = 400, kDamping = 3;  // [N/m], [N s/m]
 constexpr double kRadius = 100e-3;                // [m]
 
@@ -178,12 +179,14 @@ struct Leader::Connection {
     command.write(message);
   }
 
-  // Publishes a pure force at the arm's end. p, q: the pose of that end in the frame of the force.
-  bool push(const Vec3& wanted) {
+  // Publishes a force at the arm's end and a torque about it. p, q: the pose of that end in the frame
+  // of both.
+  bool push(const Vec3& wanted, const Vec3& turn) {
     const math::Pose& end = hand.world_from_tool;
     wrench.header_.stamp_ = now_stamp();
     wrench.wrench_.force_ = message_of(to_body ? Vec3(end.q.conjugate() * wanted) : wanted);
-    wrench.wrench_.torque_ = message_of(to_body ? Vec3(Vec3::Zero()) : Vec3(end.p.cross(wanted)));
+    wrench.wrench_.torque_ =
+        message_of(to_body ? Vec3(end.q.conjugate() * turn) : Vec3(end.p.cross(wanted) + turn));
     return force().write(wrench);
   }
 };
@@ -341,12 +344,16 @@ Result<DeviceSpec> Leader::connect() {
   connection_ = std::move(connection);
 
   trouble_ = nullptr;
+  torque_ = Vec3::Zero();
+  const double torque = settings_.takes_torque ? settings_.takes_torque(*arm) : 0;
+  peak_torque_ = torque > 0 ? std::min(torque, kMostTorque) : 0;
   DeviceSpec spec;
-  spec.name = "CRTK arm";
+  spec.name = kArmName;
   spec.serial = *arm;
   spec.simulated = false;
   spec.sensed = 6;
-  spec.actuated = 3;
+  spec.peak_torque = peak_torque_;
+  spec.actuated = peak_torque_ > 0 ? 6 : 3;
   spec.peak_force = kPeak;
   spec.continuous_force = kContinuous;
   spec.thermal_budget = 5 * kPeak * kPeak;
@@ -394,7 +401,7 @@ Wire::Read Leader::read(HandState& hand) BURR_RT {
 bool Leader::write(const Vec3& force) BURR_RT {
   Connection& connection = *connection_;
   // a force that was not sent is followed by the next
-  static_cast<void>(connection.push(bounded(force, kPeak)));
+  static_cast<void>(connection.push(bounded(force, kPeak), bounded(torque_, peak_torque_)));
   if (--connection.until_look <= 0) {
     connection.until_look = kLookAtBus;
     connection.taken = connection.force().readers() > 0;
@@ -405,7 +412,7 @@ bool Leader::write(const Vec3& force) BURR_RT {
 
 void Leader::disconnect() {
   if (!connection_) return;
-  static_cast<void>(connection_->push(Vec3::Zero()));
+  static_cast<void>(connection_->push(Vec3::Zero(), Vec3::Zero()));
   connection_->force().flush(kLastNs);
   connection_.reset();
 }

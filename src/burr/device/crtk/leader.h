@@ -5,7 +5,9 @@
 //
 // Frame: the arm's own base, metres. The user says how the base lies relative to the view
 // (mapping.h). The force is rotated into the frame of the arm's end, as body/servo_cf needs it. An
-// arm that takes only spatial/servo_cf gets the wrench of that force about its base. An arm that is
+// arm that takes only spatial/servo_cf gets the wrench of that force about its base. A torque goes
+// along where the user says that the arm takes one: about its end in the first, about its base, p x F +
+// tau, in the second. An arm that is
 // not enabled or not homed stays so, unless the user allowed it to move (home_allowed).
 // gripper/closed mills (button 0), /footpedals/clutch lifts the hand (button 1), /footpedals/coag
 // is the pedal. Where /console/operator_present is published, the hand is lifted while no operator
@@ -17,6 +19,7 @@
 // allocated on the wire's thread, one message at a time; none in the tick.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,10 +28,15 @@
 
 namespace burr::device::crtk {
 
+inline constexpr const char* kArmName = "CRTK arm";  // in DeviceSpec
+
 struct LeaderSettings {
   std::string arm = {};       // its namespace, /MTMR; empty: the only arm on the bus
   int domain = -1;            // DDS domain; below 0: ROS_DOMAIN_ID, else 0
   bool home_allowed = false;  // the arm may be enabled and may home itself: it moves
+  // The largest torque that the arm of this name takes [N m]; 0: none. CRTK does not tell, so the user
+  // says it. nullptr: none takes any. Called in connect().
+  std::function<double(const std::string& arm)> takes_torque = {};
 };
 
 // The arms that are heard on the bus within 1.5 seconds. Nothing is sent to any of them.
@@ -41,6 +49,7 @@ class Leader final : public Wire {
 
   [[nodiscard]] Result<DeviceSpec> connect() override;
   [[nodiscard]] Read read(HandState& hand) BURR_RT override;
+  void write_torque(const math::Vec3& torque) BURR_RT override { torque_ = torque; }
   [[nodiscard]] bool write(const math::Vec3& force) BURR_RT override;
   void disconnect() override;
   [[nodiscard]] std::string why() const override;
@@ -53,6 +62,8 @@ class Leader final : public Wire {
 
   LeaderSettings settings_;
   std::unique_ptr<Connection> connection_;
+  math::Vec3 torque_ = math::Vec3::Zero();  // of the next force [N m]
+  double peak_torque_ = 0;
   std::string name_ = "the arm";
   const char* trouble_ = nullptr;
   unsigned why_revision_ = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/math/sums.h"
+#include "burr/math/turn.h"
 
 namespace burr::haptics {
 namespace {
@@ -16,7 +17,9 @@ constexpr double kLargestAccount = 1e3;  // beyond it a number must be wrong    
 
 bool fine(const SpringState& now, double dt) BURR_RT {
   return now.hand.allFinite() && now.stretch.allFinite() && now.force.allFinite() &&
-         std::isfinite(now.stiffness) && now.stiffness >= 0 && std::isfinite(dt) && dt > 0;
+         std::isfinite(now.stiffness) && now.stiffness >= 0 && std::isfinite(dt) && dt > 0 &&
+         now.hand_turn.coeffs().allFinite() && now.torque.allFinite() &&
+         std::isfinite(now.turn_stiffness) && now.turn_stiffness >= 0;
 }
 
 double or_zero(double value) { return std::isfinite(value) ? std::max(0.0, value) : 0.0; }
@@ -27,14 +30,18 @@ EnergyGuard::EnergyGuard(const EnergyGuardSettings& settings) : settings_(settin
   for (double* value :
        {&settings_.device_mass, &settings_.device_damping, &settings_.encoder_step,
         &settings_.count_force, &settings_.delay, &settings_.least_speed, &settings_.largest_force,
-        &settings_.free_time, &settings_.tank_low, &settings_.slack})
+        &settings_.free_time, &settings_.tank_low, &settings_.slack, &settings_.turn_refill,
+        &settings_.turn_low, &settings_.largest_torque})
     *value = or_zero(*value);
   settings_.tank_full = std::min(or_zero(settings_.tank_full), kMostTank);
-  sent_.fill(Vec3::Zero());
+  settings_.turn_full = std::min(or_zero(settings_.turn_full), kMostTank);
+  turn_left_ = settings_.turn_full;
+  sent_.fill({});
 }
 
 Vec3 EnergyGuard::step(const SpringState& now, double dt) BURR_RT {
   alpha_ = 0;
+  share_ = 1;
   if (!fine(now, dt)) {
     restart();
     return now.force;
@@ -47,28 +54,38 @@ Vec3 EnergyGuard::step(const SpringState& now, double dt) BURR_RT {
     return now.force;
   }
 
+  const Vec3 force = faded(now.force);
   const double square = math::squared_norm(velocity_);
   const double owed = deficit() - settings_.slack;
   if (owed <= 0 || square < settings_.least_speed * settings_.least_speed || square == 0)
-    return now.force;
+    return force;
   alpha_ = std::min(owed / (dt * square), most_damping(dt));
-  return now.force - alpha_ * velocity_;
+  return force - alpha_ * velocity_;
 }
 
-void EnergyGuard::sent(const Vec3& force) BURR_RT {
+void EnergyGuard::sent(const Vec3& force, const Vec3& torque) BURR_RT {
   newest_ = (newest_ + 1) % kSent;
-  sent_[newest_] = force.allFinite() ? force : Vec3(Vec3::Zero());
+  sent_[newest_].force = force.allFinite() ? force : Vec3(Vec3::Zero());
+  sent_[newest_].torque = torque.allFinite() ? torque : Vec3(Vec3::Zero());
+}
+
+// While the store of free turns runs low.
+Vec3 EnergyGuard::faded(const Vec3& force) BURR_RT {
+  if (turn_left_ >= settings_.turn_low) return force;
+  share_ = turn_left_ / settings_.turn_low;
+  return share_ * force;
 }
 
 // The mean force that acted since the previous tick. With a delay of q whole ticks and a rest, the
 // force of one tick earlier acts first.
-Vec3 EnergyGuard::acting(double dt) const BURR_RT {
+EnergyGuard::Push EnergyGuard::acting(double dt) const BURR_RT {
   const double ticks = std::min(settings_.delay / dt, static_cast<double>(kSent) - 1.001);
   const auto whole = static_cast<std::size_t>(ticks);
   const double rest = ticks - static_cast<double>(whole);
-  const Vec3& late = sent_[(newest_ + kSent - whole) % kSent];
-  const Vec3& later = sent_[(newest_ + 2 * kSent - whole - 1) % kSent];
-  return (1 - rest) * late + rest * later;
+  const Push& late = sent_[(newest_ + kSent - whole) % kSent];
+  const Push& later = sent_[(newest_ + 2 * kSent - whole - 1) % kSent];
+  return {(1 - rest) * late.force + rest * later.force,
+          (1 - rest) * late.torque + rest * later.torque};
 }
 
 // The energy that the spring can give back. Where the spring would give more than is ever sent, the
@@ -76,6 +93,15 @@ Vec3 EnergyGuard::acting(double dt) const BURR_RT {
 double EnergyGuard::spring_energy(const SpringState& now) const BURR_RT {
   const double stretch = math::norm(now.stretch);
   const double most = settings_.largest_force;
+  if (now.turn_stiffness > 0) {
+    const double force = now.stiffness * stretch, torque = math::norm(now.torque);
+    // both springs go back together, and one factor limits both
+    double share = force > most ? most / force : 1;
+    if (settings_.largest_torque > 0 && torque > settings_.largest_torque)
+      share = std::min(share, settings_.largest_torque / torque);
+    const double whole = 0.5 * (force * stretch + torque * torque / now.turn_stiffness);
+    return whole * share * (2 - share);
+  }
   if (now.stiffness * stretch <= most) return 0.5 * now.stiffness * stretch * stretch;
   return most * (stretch - 0.5 * most / now.stiffness);
 }
@@ -90,7 +116,16 @@ void EnergyGuard::observe(const SpringState& now, double dt) BURR_RT {
   } else {
     const Vec3 way = now.hand - last_hand_;
     velocity_ = way / dt;
-    const double work = -math::dot(acting(dt), way);
+    const Push push = acting(dt);
+    double work = -math::dot(push.force, way);
+    if (now.turn_stiffness > 0 || last_torque_ != Vec3::Zero()) {
+      const Vec3 turned =
+          math::rotation_vector(math::product(now.hand_turn, last_turn_.conjugate()));
+      if (settings_.largest_torque > 0)
+        work -= math::dot(push.torque, turned);
+      else
+        lend(0.5 * (last_torque_ + now.torque), turned);
+    }
     work_in_ += work;
     energy_ += work;
     // the device lost at least b |dx|^2 / T on the way; that reduces a deficit but does not fill
@@ -100,13 +135,28 @@ void EnergyGuard::observe(const SpringState& now, double dt) BURR_RT {
     energy_ += own;
     lost_in_device_ += own;
   }
+  turn_left_ = std::min(settings_.turn_full, turn_left_ + settings_.turn_refill * dt);
   last_hand_ = now.hand;
+  last_turn_ = now.hand_turn;
+  last_torque_ = now.torque;
+}
+
+// A turn against a torque that the hand does not feel. It enters the account as if the hand had done
+// the work, and the store pays for it.
+void EnergyGuard::lend(const Vec3& torque, const Vec3& turned) BURR_RT {
+  const double lent = -math::dot(torque, turned);
+  energy_ += lent;
+  turned_in_ += lent;
+  turn_left_ = std::clamp(turn_left_ - lent, 0.0, settings_.turn_full);
 }
 
 // Surplus leaves the account for the tank. A deficit that was allowed is covered by the grant.
 void EnergyGuard::settle(double dt) BURR_RT {
   if (energy_ > stored_) {
-    tank_ = std::min(settings_.tank_full, tank_ + (energy_ - stored_));
+    const double lost = energy_ - stored_;
+    const double back = std::min(lost, settings_.turn_full - turn_left_);
+    turn_left_ += back;
+    tank_ = std::min(settings_.tank_full, tank_ + (lost - back));
     energy_ = stored_;
   }
   const double paid = std::min(granted_, deficit());
@@ -150,11 +200,17 @@ void EnergyGuard::restart() BURR_RT {
   if (begun_) written_off_ += deficit();
   begun_ = false;
   energy_ = stored_ = alpha_ = granted_ = free_ = 0;
-  sent_.fill(Vec3::Zero());
+  last_torque_ = Vec3::Zero();
+  share_ = 1;
+  sent_.fill({});
 }
 
 void EnergyGuard::set_largest_force(double newton) BURR_RT {
   if (std::isfinite(newton) && newton >= 0) settings_.largest_force = newton;
+}
+
+void EnergyGuard::set_largest_torque(double newton_metre) BURR_RT {
+  if (std::isfinite(newton_metre) && newton_metre >= 0) settings_.largest_torque = newton_metre;
 }
 
 }  // namespace burr::haptics

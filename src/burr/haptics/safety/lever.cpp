@@ -11,13 +11,13 @@ constexpr double kTurnShare = 1.0 / 3;  // of what turning allows, left to k_r  
 constexpr double kMargin = 0.7;         // of the border that is used                  [-]
 
 // The border of one axis of this damping.
-double border_of(double damping, const Wrist& wrist) {
+double border_of(double damping, const Wrist& wrist) BURR_RT {
   return damping / (0.5 / wrist.rate_hz + wrist.delay);
 }
 
 }  // namespace
 
-double stiffest_at_lever(const Wrist& wrist, double turn_stiffness, double lever) {
+double stiffest_at_lever(const Wrist& wrist, double turn_stiffness, double lever) BURR_RT {
   const double moves = border_of(wrist.damping, wrist);
   if (wrist.turn_damping <= 0) return moves;
   const double left = border_of(wrist.turn_damping, wrist) - turn_stiffness;

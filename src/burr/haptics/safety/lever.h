@@ -14,7 +14,7 @@
 // the wrist and D the damping (docs/safety.md, "A lever"). A device whose turning is not actuated gets
 // force only and has no lever: k_t <= B.
 //
-// Thread: any; limited() also in the tick. Units: SI. Memory: none.
+// Thread: any, also in the tick. Units: SI. Memory: none.
 #pragma once
 
 #include "burr/math/vec3.h"
@@ -30,7 +30,8 @@ struct Wrist {
 };
 
 // The stiffest k_t for a spring k_r [N m/rad] and a lever [m]; 0: k_r alone is too stiff.  [N/m]
-[[nodiscard]] double stiffest_at_lever(const Wrist& wrist, double turn_stiffness, double lever);
+[[nodiscard]] double stiffest_at_lever(const Wrist& wrist, double turn_stiffness,
+                                       double lever) BURR_RT;
 
 // Springs for a device: k_r is a third of what turning allows or the wanted one, whichever is less;
 // k_t the wanted one or 0.7 of the border, whichever is less.

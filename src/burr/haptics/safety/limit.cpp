@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/math/sums.h"
+#include "burr/math/turn.h"
 #include "burr/rt/flags.h"
 
 namespace burr::haptics {
@@ -48,6 +49,10 @@ bool ForceLimit::accept_reading(const device::HandState& hand, std::uint32_t& fl
   } else if (has_last_hand_ &&
              math::norm(hand.world_from_tool.p - last_hand_) > settings_.largest_jump) {
     trouble = rt::kFlagJump;
+  } else if (has_last_hand_ && device_.peak_torque > 0 &&
+             math::norm(math::rotation_vector(math::product(
+                 hand.world_from_tool.q, last_turn_.conjugate()))) > settings_.largest_turn) {
+    trouble = rt::kFlagJump;
   }
   if (trouble != 0) {
     fault(trouble, flags);
@@ -55,6 +60,7 @@ bool ForceLimit::accept_reading(const device::HandState& hand, std::uint32_t& fl
     return false;
   }
   last_hand_ = hand.world_from_tool.p;
+  last_turn_ = hand.world_from_tool.q;
   has_last_hand_ = true;
   return true;
 }
@@ -81,7 +87,17 @@ double ForceLimit::left() const BURR_RT {
   return std::max(0.0, 1.0 - in_state_ / settings_.fade_time);
 }
 
-// Limits `wanted` for this set of motors in the present state.
+// Limits of device, user and motor heat. The heat limit closes gradually over the last tenth of the
+// budget.
+double ForceLimit::most(const Channel& channel, double& hot) const BURR_RT {
+  double most = std::min(device_.peak_force, settings_.user_force);
+  hot = std::clamp((channel.heat / device_.thermal_budget - 0.9) * 10.0, 0.0, 1.0);
+  const double bearable = std::min(most, device_.continuous_force);
+  if (hot > 0) most += hot * (bearable - most);
+  return most;
+}
+
+// Limits `wanted` for this set of motors in the present state; direction kept.
 Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
                        std::uint32_t& flags) const BURR_RT {
   Vec3 force = Vec3::Zero();
@@ -92,15 +108,11 @@ Vec3 ForceLimit::bound(Channel& channel, const Vec3& wanted, double dt,
   } else {
     force = wanted;
 
-    // limits of device, user and motor heat; direction kept. The heat limit closes gradually over
-    // the last tenth of the budget.
-    double most = std::min(device_.peak_force, settings_.user_force);
-    const double hot = std::clamp((channel.heat / device_.thermal_budget - 0.9) * 10.0, 0.0, 1.0);
-    const double bearable = std::min(most, device_.continuous_force);
-    if (hot > 0) most += hot * (bearable - most);
+    double hot = 0;
+    const double allowed = most(channel, hot);
     const double size = math::norm(force);
-    if (size > most) {
-      force *= most / size;
+    if (size > allowed) {
+      force *= allowed / size;
       flags |= hot > 0 ? rt::kFlagThermal : rt::kFlagForceLimited;
     }
 
@@ -138,6 +150,37 @@ Vec3 ForceLimit::apply_torque(const Vec3& wanted, double dt, std::uint32_t& flag
   if (!wanted.allFinite()) fault(rt::kFlagNotFinite, flags);
   if (state_ == State::ramp && in_state_ <= 0) return Vec3::Zero();  // begins with the next tick
   return lever_ * bound(torque_, wanted / lever_, dt, flags);
+}
+
+Wrench ForceLimit::apply(const Wrench& wanted, const Vec3& twist, double dt,
+                         std::uint32_t& flags) BURR_RT {
+  if (lever_ <= 0) return {apply(wanted.force, dt, flags), Vec3::Zero()};
+  if (!wanted.force.allFinite() || !wanted.torque.allFinite()) fault(rt::kFlagNotFinite, flags);
+  in_state_ += dt;
+  if (state_ == State::ramp && in_state_ >= settings_.ramp_time) state_ = State::running;
+
+  Wrench asked = {wanted.force, wanted.torque / lever_};
+  if (engaged()) {
+    double hot_force = 0, hot_torque = 0;
+    const double most_force = most(force_, hot_force), most_torque = most(torque_, hot_torque);
+    const double force = math::norm(asked.force), torque = math::norm(asked.torque);
+    if (force > most_force || torque > most_torque)
+      flags |= (force > most_force ? hot_force : hot_torque) > 0 ? rt::kFlagThermal
+                                                                 : rt::kFlagForceLimited;
+    asked = limited(asked, most_force, most_torque);
+  }
+  Wrench sent;
+  sent.force = bound(force_, asked.force, dt, flags);
+  sent.torque = lever_ * bound(torque_, asked.torque, dt, flags);
+
+  if (state_ == State::fading && left() <= 0) {
+    restart();
+  } else if (state_ == State::waiting && math::norm(wanted.force) < settings_.small_force &&
+             math::norm(Vec3(wanted.torque - twist)) < settings_.small_force * lever_) {
+    state_ = State::ramp;
+    in_state_ = 0;
+  }
+  return sent;
 }
 
 }  // namespace burr::haptics

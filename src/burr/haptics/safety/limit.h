@@ -12,7 +12,8 @@
 //
 // A torque is limited like the force, in proportion to the device's maximum: with half of the peak
 // force as the user's limit, the torque is limited to half of its peak, and it grows in the same
-// proportion.
+// proportion. The motor's twist beside a ball is limited by itself; force and torque of a contact are
+// made smaller together.
 //
 // Thread: servo. Frame: any, but always the same. Units: SI. Memory: none.
 #pragma once
@@ -20,6 +21,7 @@
 #include <cstdint>
 
 #include "burr/device/hand.h"
+#include "burr/haptics/safety/lever.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 
@@ -34,6 +36,8 @@ struct LimitSettings {
   double fade_time = 5e-3;    // from detection to zero                                     [s]
   // Largest move of the hand in one tick; a longer one is rejected as a wrong reading  [m]
   double largest_jump = 20e-3;
+  // The same of a device that can turn the hand, for its direction  [rad]
+  double largest_turn = 0.5;
 };
 
 class ForceLimit {
@@ -47,6 +51,12 @@ class ForceLimit {
   // The torque of the same tick; call after apply(). Zero if the device has no torque [N m].
   [[nodiscard]] math::Vec3 apply_torque(const math::Vec3& wanted, double dt,
                                         std::uint32_t& flags) BURR_RT;
+
+  // Force and torque of a contact, in one call instead of the two: where either is above its limit,
+  // one factor makes both smaller, so that the force still acts along its line. twist: the part of
+  // the torque that is of the motor; it does not hinder the start ramp.
+  [[nodiscard]] Wrench apply(const Wrench& wanted, const math::Vec3& twist, double dt,
+                             std::uint32_t& flags) BURR_RT;
 
   // Checks the hand's reading before touch uses it. False, and the force starts to fade: the
   // reading is lost, not finite, or jumped. The first reading after a start or a fault never counts
@@ -81,6 +91,8 @@ class ForceLimit {
     double heat = 0;  // [N^2 s]
   };
   [[nodiscard]] double left() const BURR_RT;  // remaining share of the fade, 1..0
+  // What this set of motors may give now. hot: 0..1, how far the heat limit has closed  [N]
+  [[nodiscard]] double most(const Channel& channel, double& hot) const BURR_RT;
   [[nodiscard]] math::Vec3 bound(Channel& channel, const math::Vec3& wanted, double dt,
                                  std::uint32_t& flags) const BURR_RT;
 
@@ -91,6 +103,7 @@ class ForceLimit {
   double in_state_ = 0;  // [s]
   Channel force_, torque_;
   math::Vec3 last_hand_ = math::Vec3::Zero();
+  math::Quat last_turn_ = math::Quat::Identity();
   bool has_last_hand_ = false;
 };
 

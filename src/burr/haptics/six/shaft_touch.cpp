@@ -30,12 +30,14 @@ ShaftTouch::ShaftTouch(const volume::IsoVertices& surface, const ProxySettings& 
             .max_moves = settings.max_moves,
             .push_out_speed = settings.push_out_speed},
            {hand, math::Quat::Identity()}),
-      slip_(settings.slip) {}
+      slip_(settings.slip),
+      per_tick_(settings.slip) {}
 
 void ShaftTouch::place(const Vec3& p) BURR_RT {
   ball_.place(p);
   shaft_ = rests_ = false;
   slip_.restart();
+  turn_limit_.restart();
 }
 
 void ShaftTouch::set_friction(double mu_static, double mu_kinetic) BURR_RT {
@@ -89,7 +91,7 @@ Touch ShaftTouch::as_ball(const Pose& hand) BURR_RT {
 }
 
 Touch ShaftTouch::as_tool(const SixTouch& six) BURR_RT {
-  Touch touch = touch_of(six, six_.tool(), kLever, contact_);
+  Touch touch = touch_of(six, six_.tool(), lever_, contact_);
   // the next tick of the head alone begins here
   ball_.place(touch.proxy);
   return touch;
@@ -104,6 +106,10 @@ Touch ShaftTouch::step_pose(const Pose& hand) BURR_RT {
     touch = as_tool(six);
     contact_.rests = rests_ = contact_.rests || six.lagging;
     follows_ = follows_ || rests_;
+  }
+  if (turns_) {
+    contact_.lever = lever_;  // also where only the head touches: what is left of the torque fades
+    limit_turn(hand.q, per_tick_, turn_limit_, contact_);
   }
   const bool limited = slip_.step(hand.p, follows_, touch);
   follows_ = contact_.rests || limited;

@@ -1,11 +1,11 @@
-// haptics/six/shaft_touch.h - a burr whose neck and shaft touch the bone too, felt by a device that pushes and does not turn the hand.
+// haptics/six/shaft_touch.h - a burr whose neck and shaft touch the bone too.
 //
 //     the shaft touches nothing   the proxy of three unknowns, to the bit (proxy.h)
 //     the shaft touches           the proxy of six unknowns (six_proxy.h): the tool moves aside, and
 //                                 turns where it must, on a virtual spring of turning k_r = k_t L^2
 //
-// Only the force is meant to be sent. The torque that the hand would have to feel beside it is in
-// ToolContact; so is the head's own share of the contact, with which alone it may cut: the shaft
+// A device that only pushes gets the force; one that can turn the hand gets the torque as well, with
+// springs of its own (couple()). The torque is in ToolContact; so is the head's own share of the contact, with which alone it may cut: the shaft
 // never cuts. While the shaft touches there is no friction, and the stretch of the spring changes no faster
 // than ProxySettings::slip allows: so no step is felt when one proxy takes over from the other.
 //
@@ -45,6 +45,12 @@ class ShaftTouch final : public TouchMethod {
   void set_friction(double mu_static, double mu_kinetic) BURR_RT override;
   [[nodiscard]] bool set_radius(double radius) BURR_RT override;
   void set_max_moves(int moves) BURR_RT;
+  // The hand feels the torque: L of the springs that it really has (safety/coupling.h)  [m]
+  void couple(double lever) BURR_RT {
+    six_.set_lever(lever);
+    lever_ = lever;
+    turns_ = true;
+  }
 
  private:
   [[nodiscard]] bool shaft_rests(const SixTouch& six) const BURR_RT;
@@ -58,6 +64,10 @@ class ShaftTouch final : public TouchMethod {
   ToolContact contact_;
   bool follows_ = false;  // the stretch is limited: the shaft rests, or the spring still follows
   SlipLimit slip_;
+  TurnLimit turn_limit_;
+  double per_tick_;        // ProxySettings::slip  [m]
+  double lever_ = kLever;  // L
+  bool turns_ = false;     // the torque is felt
 };
 
 }  // namespace burr::haptics

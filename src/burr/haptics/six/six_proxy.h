@@ -70,6 +70,11 @@ class SixProxy {
   [[nodiscard]] const tool::Tool& tool() const BURR_RT { return tool_; }
   // Fewer moves take less time; the tool then lags behind a fast hand, but is never in bone.
   void set_max_moves(int moves) BURR_RT { settings_.max_moves = moves; }
+  // Another spring of turning: L  [m]
+  void set_lever(double lever) BURR_RT {
+    settings_.lever = lever;
+    lever_ = lever / grid_.voxel;
+  }
 
  private:
   friend class TwoTools;

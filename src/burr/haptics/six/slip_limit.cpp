@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "burr/math/sums.h"
+#include "burr/math/turn.h"
 
 namespace burr::haptics {
 
@@ -33,6 +34,17 @@ bool SlipLimit::step(const Vec3& hand, bool applies, Touch& touch) BURR_RT {
     touch.tangential = Vec3::Zero();
   }
   return true;
+}
+
+void TurnLimit::step(const math::Quat& hand, double slip, Vec3& turn) BURR_RT {
+  const Vec3 change = turn - last_turn_;
+  const double went =
+      math::norm(math::rotation_vector(math::product(hand, last_hand_.conjugate())));
+  const double most = went + slip, length = math::norm(change);
+  if (known_ && slip > 0 && length > most) turn = last_turn_ + change * (most / length);
+  last_hand_ = hand;
+  last_turn_ = turn;
+  known_ = true;
 }
 
 }  // namespace burr::haptics

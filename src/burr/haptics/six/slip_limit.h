@@ -5,6 +5,7 @@
 #pragma once
 
 #include "burr/haptics/touch_method.h"
+#include "burr/math/pose.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 
@@ -24,6 +25,20 @@ class SlipLimit {
  private:
   double slip_;
   math::Vec3 last_hand_ = math::Vec3::Zero(), last_stretch_ = math::Vec3::Zero();
+  bool known_ = false;  // these two
+};
+
+// The same for the spring of turning, for a hand that feels its torque: how far the tool is turned away
+// from the hand changes in a tick by the hand's own turn and a little more.
+class TurnLimit {
+ public:
+  void restart() BURR_RT { known_ = false; }
+  // turn: of the spring, as a rotation vector; slip: per tick  [rad]
+  void step(const math::Quat& hand, double slip, math::Vec3& turn) BURR_RT;
+
+ private:
+  math::Quat last_hand_ = math::Quat::Identity();
+  math::Vec3 last_turn_ = math::Vec3::Zero();
   bool known_ = false;  // these two
 };
 

@@ -27,12 +27,22 @@ Touch touch_of(const SixTouch& six, const tool::Tool& tool, double lever,
     if (role == tool::Role::cuts) contact.head += one.load * one.normal;
     if (role == tool::Role::rubs && one.load > 0) contact.rests = true;
   }
+  contact.lever = lever;
   contact.torque = six.turn * (lever * lever);
   contact.turn = six.turn;
   contact.active = six.active;
   contact.contacts = six.contacts;
   contact.by_part = true;
   return touch;
+}
+
+void limit_turn(const math::Quat& hand, double slip, TurnLimit& limit,
+                ToolContact& contact) BURR_RT {
+  const double lever = contact.lever;
+  if (lever <= 0) return;
+  Vec3 turn = contact.torque / (lever * lever);
+  limit.step(hand, slip / lever, turn);
+  contact.torque = turn * (lever * lever);
 }
 
 ToolTouch::ToolTouch(const volume::IsoVertices& surface, const tool::Tool& tool,
@@ -43,12 +53,14 @@ ToolTouch::ToolTouch(const volume::IsoVertices& surface, const tool::Tool& tool,
             .push_out_speed = settings.push_out_speed},
            hand),
       slip_(settings.slip),
+      per_tick_(settings.slip),
       lever_(lever),
       pose_(hand) {}
 
 void ToolTouch::take(const tool::Tool& tool) BURR_RT {
   six_.take(tool);
   slip_.restart();
+  turn_limit_.restart();
   contact_ = {};
 }
 
@@ -56,6 +68,7 @@ void ToolTouch::place(const Pose& world_from_tool) BURR_RT {
   pose_ = world_from_tool;
   six_.place(pose_);
   slip_.restart();
+  turn_limit_.restart();
   contact_ = {};
 }
 
@@ -72,6 +85,7 @@ Touch ToolTouch::felt(const SixTouch& six, const Pose& hand) BURR_RT {
   const bool rests = six.active > 0 || six.meets;
   const bool limited = slip_.step(hand.p, follows_ || rests, touch);
   follows_ = rests || limited;
+  if (turns_) limit_turn(hand.q, per_tick_, turn_limit_, contact_);
   return touch;
 }
 

@@ -38,11 +38,20 @@ class ToolTouch final : public TouchMethod {
   void set_friction(double, double) BURR_RT override {}
   [[nodiscard]] bool set_radius(double) BURR_RT override { return false; }
   void set_max_moves(int moves) BURR_RT { six_.set_max_moves(moves); }
+  // The hand feels the torque: L of the springs that it really has (safety/coupling.h)  [m]
+  void couple(double lever) BURR_RT {
+    six_.set_lever(lever);
+    lever_ = lever;
+    turns_ = true;
+  }
 
  private:
   SixProxy six_;
   SlipLimit slip_;
+  TurnLimit turn_limit_;
+  double per_tick_;  // ProxySettings::slip  [m]
   double lever_;
+  bool turns_ = false;  // the torque is felt
   math::Pose pose_;
   bool follows_ = false;  // the stretch is limited
   ToolContact contact_;
@@ -51,5 +60,9 @@ class ToolTouch final : public TouchMethod {
 // The sum of a tool's contact, and its parts. lever: L  [m]
 [[nodiscard]] Touch touch_of(const SixTouch& six, const tool::Tool& tool, double lever,
                              ToolContact& contact) BURR_RT;
+// Where the hand feels the torque: it changes no faster than the force may. slip: of the stretch, per
+// tick  [m]
+void limit_turn(const math::Quat& hand, double slip, TurnLimit& limit,
+                ToolContact& contact) BURR_RT;
 
 }  // namespace burr::haptics
