@@ -36,11 +36,14 @@ device::HandPath across(double deepest) {
   };
   go(-6, 5, 1, 1);
   double side = 1;
-  for (double z = 1.5; z > deepest; z -= 0.5, side = -side) {
+  const auto stroke = [&](double z) {
     go(-6 * side, z, 20 * kMm, 1);
-    go(6 * side, z, 8 * kMm, 1);
-  }
-  go(6 * side, 5, 20 * kMm, 1);
+    go(6 * side, z, 3 * kMm, 1);
+    side = -side;
+  };
+  for (double z = 1.6; z > deepest; z -= 0.4) stroke(z);
+  for (int n = 0; n < 4; ++n) stroke(deepest);  // the hand is ahead of the burr
+  go(-6 * side, 5, 20 * kMm, 1);
   go(8, 6, 20 * kMm, 0);
   path.points.push_back({t + 3600, path.points.back().world_from_tool, 0});
   return path;
@@ -66,7 +69,7 @@ TEST(Segment, CutFreeAndMovedByFiveMillimetresItSitsWhereThePlanSays) {
   sim::SessionSettings settings;
   settings.servo.burr.radius = kBurr;
   settings.surface.reserve_blocks = 1 << 14;
-  auto path = across(-3.2);
+  auto path = across(-3.4);
   const double seconds = path.points[path.points.size() - 2].t + 0.5;
   auto made = sim::Session::make(std::move(bone),
                                  std::make_unique<device::SimulatedHand>(
@@ -113,7 +116,7 @@ TEST(Segment, CutFreeAndMovedByFiveMillimetresItSitsWhereThePlanSays) {
   const metrics::PieceFit fit =
       metrics::piece_fit(*places[0].piece, *store.without_moved(session.bone()));
   EXPECT_NEAR(1e3 * fit.gap, 0.7, 0.15);
-  EXPECT_NEAR(1e6 * fit.facing, 15, 3);
+  EXPECT_NEAR(1e6 * fit.facing, 13, 3) << "of 15: the edges, which voxels round off, face nothing";
   ASSERT_TRUE(fit.has_step);
   EXPECT_LT(1e3 * fit.step, 0.1);
 

@@ -48,6 +48,8 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"export", "s.mcap --part removed --frame print --out removed.3mf", "what was removed"},
     {"export", "s.mcap --part pieces --out piece.stl", "each piece that came free, by itself"},
     {"export", "ct_folder/ --out bone.seg.nrrd", "a scan as labels"},
+    {"pieces", "s.mcap", "where free pieces were moved, and how they fit"},
+    {"pieces", "s.mcap --at 12.5 --json", "at 12.5 s, for another program"},
     {"phantom", "temporal-bone --voxel-mm 0.25 --out bone.seg.nrrd", "with its structures"},
     {"phantom", "jaw --landmarks", "the points that the formula knows"},
     {"repair", "s.mcap", "in place"},

@@ -13,6 +13,7 @@
 #include "burr/scenario/open_lesson.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/volume/copy_of_bone.h"
+#include "burr/volume/pieces.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
@@ -55,8 +56,11 @@ Status run(const Options& options) {
     lesson = std::move(*placed);
   }
   const nlohmann::ordered_json pieces = pieces_json(*store, *now, lesson ? &*lesson : nullptr);
-  std::size_t free = 0, splinters = 0;
-  for (const edit::PieceStore::Found& one : store->list(*now)) ++(one.dust ? splinters : free);
+  const volume::PieceFinder finder(std::as_const(*now));
+  const std::size_t free = store->list(*now).size();
+  std::size_t splinters = 0;
+  for (std::size_t n = 1; n < finder.pieces().size(); ++n)
+    if (edit::is_dust(*now, finder, n)) ++splinters;
   if (options.json) {
     nlohmann::ordered_json out;
     out["free"] = free;

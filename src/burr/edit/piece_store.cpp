@@ -272,6 +272,13 @@ bool lies_there(const Bone& bone, const Print& print) {
 
 }  // namespace
 
+bool is_dust(const Bone& bone, const volume::PieceFinder& finder, std::size_t piece) {
+  const double voxel = bone.grid().voxel,
+               voxels = static_cast<double>(finder.pieces()[piece].voxels);
+  return voxels * voxel * voxel * voxel < kDust &&
+         voxels < kDustOfBone * static_cast<double>(finder.pieces()[0].voxels);
+}
+
 Pose pose_of(const PieceMove& move, const Vec3& centre) {
   const Quat turn(move.turn[3], move.turn[0], move.turn[1], move.turn[2]);
   return {centre + Vec3(move.by[0], move.by[1], move.by[2]) - turn * centre, turn};
@@ -354,18 +361,17 @@ std::vector<PieceStore::Found> PieceStore::list(const Bone& bone) const {
           known[static_cast<std::size_t>(labels[v])] = true;
     }
   }
-  const double mother = static_cast<double>(finder.pieces()[0].voxels);
-  for (std::size_t piece = 1; piece < finder.pieces().size(); ++piece) {
-    if (known[piece]) continue;
+  std::size_t free = 0;
+  for (std::size_t piece = 1; piece < finder.pieces().size() && free < kMostFree; ++piece) {
+    if (known[piece] || is_dust(bone, finder, piece)) continue;
     const auto kept = take(bone, finder, piece);
     if (!kept) continue;
+    ++free;
     Found& found = all.emplace_back();
     found.number = static_cast<std::uint32_t>(kept_.size());
     found.seed = kept->seed;
     found.volume = kept->volume;
     found.centre = bone.grid().world_from_grid(kept->centre_grid);
-    found.dust = kept->volume < kDust &&
-                 static_cast<double>(finder.pieces()[piece].voxels) < kDustOfBone * mother;
     found.bone = kept->piece;
   }
   std::stable_sort(all.begin(), all.end(),

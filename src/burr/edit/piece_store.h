@@ -49,11 +49,11 @@ class PieceStore {
     math::Vec3 centre =
         math::Vec3::Zero();  // of its voxels where it came free; the move turns about it
     math::Pose now;          // the whole move so far, of a point of the piece where it came free
-    bool dust = false;
     std::shared_ptr<const volume::Bone> bone;  // as it came free
   };
-  // All pieces but the mother, the largest first: those that were moved and lie where they were put,
-  // and those that have come free.
+  // All pieces but the mother and dust, the largest first: those that were moved and lie where they
+  // were put, and those that have come free, kMostFree at most: a scan may have thousands of islands.
+  static constexpr std::size_t kMostFree = 16;
   [[nodiscard]] std::vector<Found> list(const volume::Bone& bone) const;
   // The piece whose voxels are nearest to p, at most `within` away [m]. Error: there is none.
   [[nodiscard]] Result<Found> find(const volume::Bone& bone, const math::Vec3& p,
@@ -96,6 +96,10 @@ class PieceStore {
 
   std::vector<std::shared_ptr<Kept>> kept_;
 };
+
+// Of the finder's pieces, from 1.
+[[nodiscard]] bool is_dust(const volume::Bone& bone, const volume::PieceFinder& finder,
+                           std::size_t piece);
 
 // The move as a pose of world points. centre: of the piece where it came free.
 [[nodiscard]] math::Pose pose_of(const PieceMove& move, const math::Vec3& centre);

@@ -82,8 +82,7 @@ void PieceMover::notice() {
                     [&](const volume::Piece& before) { return same(before, now[n]); });
     if (known) continue;
     const double size = static_cast<double>(now[n].voxels) * one;
-    if (size < edit::kDust && static_cast<double>(now[n].voxels) <
-                                  edit::kDustOfBone * static_cast<double>(now[0].voxels)) {
+    if (edit::is_dust(session_.bone(), finder_, n)) {
       ++dust.count;
       dust.volume += size;
     } else {
@@ -190,6 +189,7 @@ std::vector<PieceMover::News> PieceMover::look() {
 void PieceMover::take() {
   {
     const std::lock_guard lock(mutex_);
+    list_.reset();  // it may be older than an undo
     list_wanted_ = true;
   }
   wake_.notify_all();

@@ -169,7 +169,7 @@ PiecesState PieceMode::state() const {
     for (const edit::PieceStore::Found& piece : *list_)
       state.rows.push_back({1e9 * piece.volume,
                             1e3 * (piece.now * piece.centre - piece.centre).norm(),
-                            degrees_of(piece.now.q), piece.dust});
+                            degrees_of(piece.now.q)});
   if (!taken_) return state;
   state.taken = taken_->row;
   const Vec3 turn = math::rotation_vector(taken_->turn) / kDegree;
@@ -205,8 +205,7 @@ void PieceMode::show(render::Scene& scene, bool shown) {
   if (std::exchange(ghost_drawn_, false)) scene.soft.resize(softs_);
   if (!shown || !list_) return;
   line_ = 0.00121 * scene.camera.view_height();
-  for (const edit::PieceStore::Found& piece : *list_)
-    if (!piece.dust) frame(scene, piece, line_);
+  for (const edit::PieceStore::Found& piece : *list_) frame(scene, piece, line_);
   if (!taken_ || taken_->plain == nullptr) return;
   const std::size_t colour = session_.bone_tissues().tissues.size();
   if (colour >= kMostColours) return;

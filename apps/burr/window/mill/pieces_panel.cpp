@@ -54,8 +54,8 @@ PiecesPressed draw_pieces(Ui& ui, const PiecesState& state) {
     std::string text = say(Word::piece_row, n + 1, row.mm3);
     if (row.moved_mm > 0.005 || row.turned_deg > 0.05)
       text += "  " + say(Word::piece_moved, row.moved_mm, row.turned_deg);
-    ui.write(x + 14 * u, at + 8 * u, taken ? Ui::Letter::strong : Ui::Letter::small,
-             row.dust ? ink::kDim : ink::kText, text);
+    ui.write(x + 14 * u, at + 8 * u, taken ? Ui::Letter::strong : Ui::Letter::small, ink::kText,
+             text);
     if (state.taken || state.putting) continue;
     ImGui::PushID(static_cast<int>(n));
     ImGui::SetCursorScreenPos({x + wide - 84 * u, at + 2 * u});

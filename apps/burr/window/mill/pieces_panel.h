@@ -18,7 +18,6 @@ struct PiecesState {
   struct Row {
     double mm3 = 0;
     double moved_mm = 0, turned_deg = 0;  // so far
-    bool dust = false;
   };
   bool looking = false;  // the bone is being looked through
   bool putting = false;  // the piece is on its way into the bone

@@ -39,6 +39,8 @@ std::string letter_of(const tick::Command& command) {
     case tick::CommandKind::mirror_k:
     case tick::CommandKind::mirror_off:
       return "X";
+    case tick::CommandKind::move_piece:
+      return "M";
     default:
       return "F2";
   }
@@ -336,6 +338,8 @@ std::string command_text(const record::TimelineEvent& event) {
       return word(Word::mirror_off);
     case tick::CommandKind::user_force:
       return say(Word::replay_limit, command.value);
+    case tick::CommandKind::move_piece:
+      return word(Word::piece_lies);
     default:
       return word(Word::replay_setting);
   }
