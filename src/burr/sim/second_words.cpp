@@ -34,6 +34,10 @@ const Entry kEntries[] = {
     {"device_thermal_budget_n2_s", BURR_AT(device.thermal_budget), 0, 1e9},
     {"device_max_stiffness_n_per_m", BURR_AT(device.max_stiffness), 0, 1e6},
     {"device_max_damping_n_s_per_m", BURR_AT(device.max_damping), 0, 1e4},
+    {"device_max_turn_stiffness_nm_per_rad", BURR_AT(device.max_turn_stiffness), 0, 1e3},
+    {"device_turn_damping_nm_s_per_rad", BURR_AT(device.turn_damping), 0, 1e3},
+    {"device_lever_m", BURR_AT(device.lever), 0, 10},
+    {"device_scale", BURR_AT(device.scale), 1e-3, 1e3},
 };
 #undef BURR_AT
 
