@@ -97,6 +97,12 @@ Touch ShaftTouch::as_tool(const SixTouch& six) BURR_RT {
   return touch;
 }
 
+void ShaftTouch::limit_torque(const math::Quat& hand) BURR_RT {
+  if (!turns_) return;
+  contact_.lever = lever_;  // also where only the head touches: what is left of the torque fades
+  limit_turn(hand, per_tick_, turn_limit_, contact_);
+}
+
 Touch ShaftTouch::step_pose(const Pose& hand) BURR_RT {
   contact_ = {};
   Touch touch;
@@ -107,10 +113,7 @@ Touch ShaftTouch::step_pose(const Pose& hand) BURR_RT {
     contact_.rests = rests_ = contact_.rests || six.lagging;
     follows_ = follows_ || rests_;
   }
-  if (turns_) {
-    contact_.lever = lever_;  // also where only the head touches: what is left of the torque fades
-    limit_turn(hand.q, per_tick_, turn_limit_, contact_);
-  }
+  limit_torque(hand.q);
   const bool limited = slip_.step(hand.p, follows_, touch);
   follows_ = contact_.rests || limited;
   return touch;
@@ -122,6 +125,7 @@ Touch ShaftTouch::felt(const SixTouch& six, const Pose& hand) BURR_RT {
   contact_.rests = contact_.rests || six.lagging;
   // the next tick goes on in six unknowns, until nothing but the head touches
   rests_ = true;
+  limit_torque(hand.q);
   static_cast<void>(slip_.step(hand.p, true, touch));
   follows_ = true;
   return touch;

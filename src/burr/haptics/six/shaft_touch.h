@@ -55,6 +55,7 @@ class ShaftTouch final : public TouchMethod {
  private:
   [[nodiscard]] bool shaft_rests(const SixTouch& six) const BURR_RT;
   [[nodiscard]] Touch as_ball(const math::Pose& hand) BURR_RT;
+  void limit_torque(const math::Quat& hand) BURR_RT;  // where it is felt
   [[nodiscard]] Touch as_tool(const SixTouch& six) BURR_RT;
 
   Proxy ball_;
