@@ -475,7 +475,8 @@ Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMo
   place->move = move;
   if (!lay(*kept.piece, *way, bone, work, place->prints, bricks->overlap))
     return error(Trouble::usage,
-                 "the piece would leave the volume; move it less; of a scan, a larger --roi gives more room");
+                 "the piece would leave the volume; move it less; of a scan, a larger --roi gives "
+                 "more room");
   find_changed(bone, work, *bricks);
   bricks->writes = move.writes;
   place->move.bricks = bricks->hash;
