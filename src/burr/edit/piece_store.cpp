@@ -474,9 +474,7 @@ Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMo
   auto place = std::make_shared<Place>();
   place->move = move;
   if (!lay(*kept.piece, *way, bone, work, place->prints, bricks->overlap))
-    return error(Trouble::usage,
-                 "the piece would leave the volume; move it less; of a scan, a larger --roi gives "
-                 "more room");
+    return error(Trouble::usage, "the piece would leave the volume; move it less");
   find_changed(bone, work, *bricks);
   bricks->writes = move.writes;
   place->move.bricks = bricks->hash;
