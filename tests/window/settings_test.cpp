@@ -81,7 +81,7 @@ TEST_F(SettingsFile, IsExplainedLineByLine) {
     }
     before = line;
   }
-  EXPECT_EQ(set, 28);
+  EXPECT_EQ(set, 29);
 }
 
 TEST_F(SettingsFile, WhichIsNotThereMeansTheDefaultsWithoutTrouble) {

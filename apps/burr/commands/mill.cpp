@@ -363,11 +363,7 @@ void add_results(CLI::App* command, const std::shared_ptr<Options>& options) {
   command->add_flag("--json", options->json, "one JSON object on the last line");
 }
 
-void add(CLI::App& app, Todo& todo) {
-  auto options = std::make_shared<Options>();
-  auto* command = app.add_subcommand("mill", "mill a bone with a simulated hand");
-  command->add_option("volume", options->volume.source, "file, DICOM folder, or phantom:NAME")
-      ->required();
+void add_motion(CLI::App* command, const std::shared_ptr<Options>& options) {
   command->add_option("--path", options->path_csv,
                       "CSV file t,x,y,z[,qw,qx,qy,qz][,spindle] of the hand (s, m; or x_mm ...)");
   command->add_option("--motion", options->motion_name,
@@ -382,6 +378,14 @@ void add(CLI::App& app, Todo& todo) {
                    "DX,DY,DZ: direction into the bone (default: against the surface normal)")
       ->delimiter(',')
       ->expected(3);
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("mill", "mill a bone with a simulated hand");
+  command->add_option("volume", options->volume.source, "file, DICOM folder, or phantom:NAME")
+      ->required();
+  add_motion(command, options);
   command->add_option("--burr-mm", options->burr_mm, "diameter of the burr, 0.6 to 7")
       ->capture_default_str();
   add_tool_options(*command, options->tool);

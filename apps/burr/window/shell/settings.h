@@ -34,10 +34,10 @@ struct Settings {
   double pedal_burr = 1;
   double pedal_coolant = 2;
   double pedal_tool = 4;
-  double pedal_clutch = 3;  // lifts a haptic device while it is down
-  double pedal_rest = -1;   // value of its axis with no foot on it
+  double pedal_clutch = 3;     // lifts a haptic device while it is down
+  double pedal_rest = -1;      // value of its axis with no foot on it
   bool shaft_touches = false;  // the burr's shaft touches the bone too, as with --touch shaft
-  bool effects = true;      // freshly cut bone and wet bone look so for a while
+  bool effects = true;         // freshly cut bone and wet bone look so for a while
   render::Stereo stereo = render::Stereo::off;
   double stereo_depth = 1;     // distance between the eyes; 1: as in `burr picture`
   bool headset = false;        // through OpenXR, if there is one
