@@ -359,8 +359,8 @@ void TwoTools::move(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wa
   };
   Half one(a, guess_a, touch_a), other(b, guess_b, touch_b);
   for (int round = 0; round < kRounds; ++round) {
-    const bool both = one.collect() & other.collect();
-    if (!both) continue;
+    const bool ready = one.collect();  // each is to know, so both are asked
+    if (!other.collect() || !ready) continue;
     find_pairs(a, b);
     solve(a, b, wanted_a, wanted_b, twist);
     one.measure(twist.a);
