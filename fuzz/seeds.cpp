@@ -474,7 +474,7 @@ std::unique_ptr<volume::Bone> block(int edge) {
 
 record::SessionInfo session_of(const volume::Bone& bone) {
   record::SessionInfo info;
-  sim::describe({}, {}, info);
+  sim::describe(sim::SessionSettings{}, {}, info);
   info.words["motion"] = "pocket";
   info.volume.content_hash = bone.content_hash();
   info.volume.source_fingerprint = 0x123456789ABCDEF0;

@@ -161,7 +161,7 @@ void Restore::put_back(std::uint32_t& flags) BURR_RT {
   if (kind_ == CommandKind::move_piece) {
     const std::size_t count = moving_->bricks.size();
     for (std::size_t n = 0; n < most && restored_ < count; ++n, ++restored_)
-      writer_.put(moving_->bricks[restored_], flags);
+      writer_.put(moving_->bricks[static_cast<std::size_t>(restored_)], flags);
     if (restored_ < count) return;
     writer_.account().moved += moving_->lost;
     undo_.end_stroke(writer_.account().removed, moving_->lost);
