@@ -149,7 +149,7 @@ TEST_F(LeaderTest, AnArmWithoutBodyForcesGetsTheWrenchAboutItsBase) {
 }
 
 // Where the user says that the arm takes one: the torque is turned into the frame of the arm's end, or
-// comes about the base with the moment of the force; and it is never above what was said.
+// comes about the base with the moment of the force; and it never exceeds takes_torque_nm.
 TEST_F(LeaderTest, ATorqueGoesOutInTheFrameThatTheArmTakes) {
   for (const bool body : {true, false}) {
     FakeCrtkArm arm(domain_, "/arm", {.body = body});

@@ -11,6 +11,7 @@
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/volume/pieces.h"
+#include "burr/volume/sample.h"
 #include "commands/work.h"
 #include "user.h"
 #include "window/mill/make_ready.h"
@@ -62,10 +63,20 @@ TEST_F(PiecesWindow, AFreePieceIsTakenMovedPutDownAndBroughtBack) {
   const auto told = [this](Word says) {
     return [this, says] { return desk_->status_text.find(word(says)) != std::string::npos; };
   };
+  int framed = 0;
   const auto has_ghost = [&] { return ready.scene.soft.size() > softs; };
   mill_by(ready, {{"a picture", looks(3), [] { press(SDLK_m, KMOD_CTRL); }},
                   {"the frame of the piece", [&] { return ready.scene.rods.size() >= 12; },
-                   [&] { click_take(); }},
+                   [&] {
+                     // a frame that lies in the bone is not seen
+                     for (const render::Rod& rod : ready.scene.rods) {
+                       if (rod.on_top || rod.arrow) continue;
+                       ++framed;
+                       EXPECT_LT(volume::depth_at(ready.session->bone(), rod.a), 0);
+                       EXPECT_LT(volume::depth_at(ready.session->bone(), rod.b), 0);
+                     }
+                     click_take();
+                   }},
                   {"the ghost", asking_until(has_ghost, [&] { click_take(); }),
                    [] {
                      for (int n = 0; n < 6; ++n) press(SDLK_RIGHT);
@@ -74,6 +85,7 @@ TEST_F(PiecesWindow, AFreePieceIsTakenMovedPutDownAndBroughtBack) {
                   {"the ghost has moved", looks(5), [] { press(SDLK_RETURN); }},
                   {"it lies there", told(Word::piece_lies), [] { press(SDLK_u); }},
                   {"it is back", looks(30), [] { close_window(); }}});
+  EXPECT_GE(framed, 12);
   EXPECT_EQ(ready.session->bone().content_hash(), at_start) << "undone";
   EXPECT_EQ(ready.scene.soft.size(), softs) << "the ghost is gone";
   EXPECT_GT(ready.session->writes(), 0U);

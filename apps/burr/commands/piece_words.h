@@ -1,5 +1,5 @@
 // commands/piece_words.h - pieces of bone that were moved: the options of `burr mill`, and how a moved
-// piece is told in words and numbers.
+// piece was moved and how it fits, as sentences and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

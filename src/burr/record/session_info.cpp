@@ -282,11 +282,10 @@ Result<scenario::Case> case_of(const CaseInfo& info) {
 Result<scenario::Case> case_of(const SessionInfo& info) {
   auto read = case_of(*info.work_case);
   if (!read) return read.error();
-  const auto plain = [](const std::string& phantom) {
-    return phantom.substr(0, phantom.find('?'));
-  };
   const std::string was = scenario::phantom_name(info.volume.recipe.source);
-  if (!read->phantom.empty() && plain(was) == plain(read->phantom)) read->phantom = was;
+  if (!read->phantom.empty() &&
+      scenario::without_variant(was) == scenario::without_variant(read->phantom))
+    read->phantom = was;
   return read;
 }
 

@@ -154,6 +154,9 @@ std::string phantom_name(const std::string& source) {
   return is_phantom(source) ? source.substr(kPhantom.size()) : "";
 }
 std::string phantom_source(const std::string& name) { return std::string(kPhantom) + name; }
+std::string without_variant(const std::string& phantom) {
+  return phantom.substr(0, phantom.find('?'));
+}
 
 Recipe without_paths(Recipe recipe) {
   if (!is_phantom(recipe.source)) recipe.source.clear();

@@ -75,6 +75,8 @@ struct Recipe {
 // "temporal-bone" of "phantom:temporal-bone"; empty: it is none.
 [[nodiscard]] std::string phantom_name(const std::string& source);
 [[nodiscard]] std::string phantom_source(const std::string& name);
+// "jaw" of "jaw?long,defect".
+[[nodiscard]] std::string without_variant(const std::string& phantom);
 
 // As a recording may hold it: no path and no identifier. A file becomes "", an own table or a
 // series chosen by its UID becomes kOwn.

@@ -19,10 +19,6 @@ namespace {
 constexpr double kWithoutSteps = 18e-3, kSpare = 2e-3;
 
 // "tooth" of "tooth?graded"
-std::string without_variant(const std::string& phantom) {
-  return phantom.substr(0, phantom.find('?'));
-}
-
 struct Ball {
   Vec3 at;
   double radius;
@@ -68,7 +64,7 @@ void add_named(const std::string& name, const scenario::Lesson& lesson, std::vec
 std::optional<render::Opening> opening_of(const scenario::Case& work,
                                           const scenario::Lesson* lesson) {
   if (!work.at || !work.into) return std::nullopt;
-  const std::string phantom = without_variant(work.phantom);
+  const std::string phantom = scenario::without_variant(work.phantom);
   if (phantom == "block" || phantom == "ball" || phantom == "tooth") return std::nullopt;
   render::Opening opening{*work.at, -work.into->normalized(), kWithoutSteps};
   if (lesson == nullptr || lesson->steps.empty()) return opening;
@@ -105,11 +101,11 @@ std::optional<render::Opening> opening_of(const scenario::Case& work) {
 }
 
 std::optional<render::Opening> opening_of_phantom(const std::string& source) {
-  const std::string phantom = without_variant(scenario::phantom_name(source));
+  const std::string phantom = scenario::without_variant(scenario::phantom_name(source));
   if (phantom.empty()) return std::nullopt;
   for (const std::string& name : scenario::built_in_cases())
     if (const auto work = scenario::read_case(name);
-        work && without_variant(work->phantom) == phantom)
+        work && scenario::without_variant(work->phantom) == phantom)
       return opening_of(*work);
   return std::nullopt;
 }

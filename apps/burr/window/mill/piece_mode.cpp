@@ -22,7 +22,10 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr render::Colour kFrame = {0.95F, 0.70F, 0.12F}, kGhost = {0.34F, 0.71F, 0.91F};
 constexpr std::size_t kMostColours = 256;
 
-// Corners of the box around a piece, low and high, in p_grid.
+constexpr double kAround =
+    1.5;  // the frame lies so far outside of the outermost voxels' middles [voxels]
+
+// Corners of the frame around a piece, low and high, in p_grid.
 std::array<Vec3, 2> box_of(const volume::Bone& piece) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (volume::BrickIndex brick = 0; brick < piece.brick_count(); ++brick) {
@@ -36,7 +39,7 @@ std::array<Vec3, 2> box_of(const volume::Bone& piece) {
       high = high.cwiseMax(p);
     }
   }
-  return {low, high};
+  return {Vec3(low.array() - kAround), Vec3(high.array() + kAround)};
 }
 
 std::shared_ptr<const render::CoarseMesh> mesh_of(const volume::Bone& piece) {

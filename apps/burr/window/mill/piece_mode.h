@@ -1,5 +1,5 @@
-// apps/burr/window/mill/piece_mode.h - free pieces of bone on the page for milling: they are told,
-// framed in the picture, taken, moved as a ghost, and put down.
+// apps/burr/window/mill/piece_mode.h - free pieces of bone on the page for milling: the window
+// says that one has come free, frames it, and lets it be moved as a ghost and put down.
 //
 // The piece under way is a picture only: the bone stays as it was until the piece is put down, and is
 // then changed by one recorded command. Thread: main; the work is done beside it (sim/piece_mover.h).

@@ -145,19 +145,25 @@ PartPlace place_of(const tool::Part& part, const tool::Shape& shape, const Vec3&
 
 }  // namespace
 
-double TwoTools::least_gap(const SixProxy& a, const SixProxy& b) const BURR_RT {
-  double least = std::numeric_limits<double>::infinity();
+// use(place of a part of a, place of a part of b), for every pair of parts that touch
+template <class Use>
+void TwoTools::each_pair(const SixProxy& a, const SixProxy& b, const Use& use) BURR_RT {
   for (int i = 0; i < a.tool_.count; ++i)
     for (int j = 0; j < b.tool_.count; ++j) {
       const tool::Part &one = a.tool_.parts[SixProxy::index(i)],
                        &other = b.tool_.parts[SixProxy::index(j)];
       if (one.role == tool::Role::seen || other.role == tool::Role::seen) continue;
       const double voxel = a.grid_.voxel;
-      least =
-          std::min(least, part_gap(place_of(one, a.shape_[SixProxy::index(i)], a.c_, a.r_, voxel),
-                                   place_of(other, b.shape_[SixProxy::index(j)], b.c_, b.r_, voxel))
-                              .gap);
+      use(place_of(one, a.shape_[SixProxy::index(i)], a.c_, a.r_, voxel),
+          place_of(other, b.shape_[SixProxy::index(j)], b.c_, b.r_, voxel));
     }
+}
+
+double TwoTools::least_gap(const SixProxy& a, const SixProxy& b) const BURR_RT {
+  double least = std::numeric_limits<double>::infinity();
+  each_pair(a, b, [&least](const PartPlace& one, const PartPlace& other) BURR_RT {
+    least = std::min(least, part_gap(one, other).gap);
+  });
   return least;
 }
 
@@ -175,19 +181,12 @@ void TwoTools::add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b
 
 void TwoTools::find_pairs(const SixProxy& a, const SixProxy& b) BURR_RT {
   count_ = 0;
-  for (int i = 0; i < a.tool_.count; ++i)
-    for (int j = 0; j < b.tool_.count; ++j) {
-      const tool::Part &one = a.tool_.parts[SixProxy::index(i)],
-                       &other = b.tool_.parts[SixProxy::index(j)];
-      if (one.role == tool::Role::seen || other.role == tool::Role::seen) continue;
-      const double voxel = a.grid_.voxel;
-      const PartPlace place_a = place_of(one, a.shape_[SixProxy::index(i)], a.c_, a.r_, voxel),
-                      place_b = place_of(other, b.shape_[SixProxy::index(j)], b.c_, b.r_, voxel);
-      add_pair(part_gap(place_a, place_b), a, b);
-      PartGap ends[4];
-      const int more = gaps_at_ends(place_a, place_b, ends);
-      for (int n = 0; n < more; ++n) add_pair(ends[n], a, b);
-    }
+  each_pair(a, b, [this, &a, &b](const PartPlace& one, const PartPlace& other) BURR_RT {
+    add_pair(part_gap(one, other), a, b);
+    PartGap ends[4];
+    const int more = gaps_at_ends(one, other, ends);
+    for (int n = 0; n < more; ++n) add_pair(ends[n], a, b);
+  });
 }
 
 bool TwoTools::near(const HeldTool& a, const HeldTool& b) BURR_RT {
@@ -359,7 +358,7 @@ void TwoTools::move(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wa
   };
   Half one(a, guess_a, touch_a), other(b, guess_b, touch_b);
   for (int round = 0; round < kRounds; ++round) {
-    const bool ready = one.collect();  // each is to know, so both are asked
+    const bool ready = one.collect();  // both proxies collect, also where the first is not ready
     if (!other.collect() || !ready) continue;
     find_pairs(a, b);
     solve(a, b, wanted_a, wanted_b, twist);

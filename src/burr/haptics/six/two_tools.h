@@ -53,6 +53,8 @@ class TwoTools {
 
   void find_pairs(const SixProxy& a, const SixProxy& b) BURR_RT;
   void add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b) BURR_RT;
+  template <class Use>
+  static void each_pair(const SixProxy& a, const SixProxy& b, const Use& use) BURR_RT;
   [[nodiscard]] double least_gap(const SixProxy& a, const SixProxy& b) const BURR_RT;
   void solve(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wanted_b,
              Twist& twist) BURR_RT;
