@@ -154,6 +154,25 @@ TEST(Link, ALossIsLearntEvenIfTheNextReadingIsGood) {
   EXPECT_TRUE(still.tick(0));
 }
 
+// On a busy computer the tick may sleep from one late reading to the next, and see none that is too old.
+TEST(Link, ReadingsThatComeTooSeldomAreALossThoughEachIsAnsweredAtOnce) {
+  Still still;
+  still.exchange(1000);
+  EXPECT_TRUE(still.tick(0));
+  int valid = 0;
+  for (int n = 1; n <= 20; ++n) {
+    EXPECT_EQ(still.exchange(1000 + 10.0 * n), 0) << n;
+    const bool seen = still.tick(0.01 * n);  // a ramp, by a tick that believed every reading
+    valid += seen;
+  }
+  EXPECT_EQ(valid, 0);
+  still.exchange(1201);
+  EXPECT_TRUE(still.tick(0));
+  still.exchange(1202);
+  still.tick(2);
+  EXPECT_EQ(still.exchange(1203), 2) << "at the usual pace all is well again";
+}
+
 TEST(Link, WhatTheGuardHoldsBackIsHeldBackUntilTheNextForce) {
   Still still;
   still.exchange(1000);

@@ -80,6 +80,7 @@ Vec3 Link::exchange(const HandState& hand) BURR_RT {
 
 void Link::count_readings(std::int64_t now) BURR_RT {
   if (last_reading_ns_ != kNever) {
+    if (now - last_reading_ns_ >= timeout_ns_) release(now);
     const std::int64_t mean = reading_period_ns_.load(std::memory_order_relaxed);
     const std::int64_t since = std::min(now - last_reading_ns_, kLongestNs);
     reading_period_ns_.store(mean + (since - mean) / kMean, std::memory_order_relaxed);
@@ -91,16 +92,20 @@ void Link::take_answers(std::int64_t now) BURR_RT {
   if (answers_.take(answer_)) answered_ns_ = now;
 }
 
-Vec3 Link::push() BURR_RT {
-  const std::int64_t now = now_();
-  take_answers(now);
-  if (!fading_ && !pushed_.none() && now - answered_ns_ >= timeout_ns_) {
+void Link::release(std::int64_t now) BURR_RT {
+  if (!fading_) {
     fading_ = true;
     faded_since_ns_ = now;
     fading_from_ = pushed_;
-    fading_after_ = number_;
-    released_.store(true, std::memory_order_release);
   }
+  fading_after_ = number_;
+  released_.store(true, std::memory_order_release);
+}
+
+Vec3 Link::push() BURR_RT {
+  const std::int64_t now = now_();
+  take_answers(now);
+  if (!fading_ && !pushed_.none() && now - answered_ns_ >= timeout_ns_) release(now);
   if (fading_) {
     // finished when the servo has noticed the loss and has released the force as well
     if (answer_.number > fading_after_ && answer_.push.none()) fading_ = false;

@@ -7,8 +7,8 @@
 // answer timeout; then the previous force stays, for a few milliseconds. If no answer comes for
 // loss_timeout, the force fades linearly to zero. It stays at zero until the servo has seen the
 // loss (an invalid reading) and has itself come down to zero, so that force returns only through
-// the start ramp. The same happens when no reading comes. An old force is never repeated for longer
-// than the timeout.
+// the start ramp. The same happens when no reading comes for that long, even if the servo slept over
+// the gap. An old force is never repeated for longer than the timeout.
 //
 // Thread: exchange(), push(), torque(), mark_lost() on the wire; wait(), state(), write_torque(),
 // write_force(), begin_at() on the servo; scale_force() any. Wait-free but for the two bounded
@@ -123,6 +123,7 @@ class Link {
   void count_readings(std::int64_t now) BURR_RT;
   void publish_reading(const HandState& hand, std::int64_t now) BURR_RT;
   void take_answers(std::int64_t now) BURR_RT;
+  void release(std::int64_t now) BURR_RT;
 
   Now now_;
   std::atomic<std::int64_t> answer_timeout_ns_;

@@ -85,8 +85,13 @@ void run_clock() {
       next = now;
       continue;
     }
-    next += std::chrono::nanoseconds(1'000'000'000 / rate) + std::chrono::milliseconds(stall);
-    if (next < now - std::chrono::milliseconds(20)) next = now;  // no burst to catch up
+    const auto period = std::chrono::nanoseconds(1'000'000'000 / rate);
+    next += period + std::chrono::milliseconds(stall);
+    // A late frame may be followed by some that are close together, but not by a burst; a slow device sends none too early
+    if (rate < 500)
+      next = std::max(next, now + period);
+    else if (next < now - std::chrono::milliseconds(20))
+      next = now;
     std::this_thread::sleep_until(next);
     if (moves) {
       const std::lock_guard lock(state().mutex);
