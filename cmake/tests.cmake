@@ -1,7 +1,6 @@
 # tests/<room>/x_test.cpp -> one test program per room
 find_package(GTest REQUIRED)
 include(GoogleTest)
-pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # reads back what burr writes
 
 file(GLOB BURR_TEST_SUPPORT CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/support/*.cpp)
 add_library(burr_test_support STATIC ${BURR_TEST_SUPPORT})

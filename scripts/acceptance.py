@@ -92,7 +92,6 @@ VICES = {
                           "pit.outline", "pit.depth"],
         "unfinished": ["caries.firm", "pit.cleared"],
         "drift_mm": ["outline.kept", "pit.outline", "pit.floor", "dentine.spared"],
-        "restraint": ["force.restraint"],
         "tremor_mm": [],
     },
     "block": {

@@ -58,7 +58,7 @@ ONLY = {
     ("record", "device"): {"hand.h"},
     ("record", "haptics"): {"contact.h"},
     ("record", "edit"): {"ledger.h", "mirror.h"},
-    ("record", "tool"): {"burr_tool.h", "state.h", "shaped_tool.h"},
+    ("record", "tool"): {"burr_tool.h", "state.h", "shaped_tool.h", "shape_grid.h"},
     ("sim", "edit"): {"piece_store.h", "piece_move.h"},
     ("metrics", "tick"): {"rows.h"},
     ("metrics", "tool"): {"burr_tool.h", "state.h"},

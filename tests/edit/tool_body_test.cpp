@@ -17,6 +17,7 @@
 #include "burr/rt/simd.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
+#include "support/mesh.h"
 #include "support/rt_guard.h"
 
 namespace burr::edit {
@@ -112,6 +113,19 @@ TEST_P(CarveShapes, ASideMillTakesTheSegmentOfItsCircle) {
       wide * (a * a * std::acos(1 - d / a) - (a - d) * std::sqrt(2 * a * d - d * d));
   EXPECT_NEAR(before - work.volume(), want, 0.015 * want);
   EXPECT_NEAR(work.carver.ledger().removed, before - work.volume(), 1e-9 * want);
+}
+
+TEST_P(CarveShapes, ASideMillThatIsAMeshTakesTheSameSegment) {
+  const double a = 2 * kMm, d = 0.8 * kMm, wide = 4 * kMm;
+  Work work(bar(), GetParam(), 7);
+  const double before = work.volume();
+  const tool::Tool mill = one_part(test::cylinder_grid(a, 5 * kMm, 0.15 * kMm));
+  ASSERT_EQ(mill.count, 1);
+  const Quat lying(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()));
+  work.cut_all(mill, {Vec3(0.1 * kMm, 0, a - d), lying});
+  const double want =
+      wide * (a * a * std::acos(1 - d / a) - (a - d) * std::sqrt(2 * a * d - d * d));
+  EXPECT_NEAR(before - work.volume(), want, 0.015 * want);
 }
 
 TEST_P(CarveShapes, ASawLeavesAKerfAsWideAsItsTeeth) {
@@ -285,11 +299,14 @@ TEST(ToolBody, EveryInstructionSetGivesTheSameBits) {
     rt::force_simd(which);
     if (rt::simd() != which) continue;  // not on this processor
     std::uint64_t hash = 0;
-    for (const ShapeKind kind : {ShapeKind::ball, ShapeKind::capsule, ShapeKind::cylinder,
-                                 ShapeKind::frustum, ShapeKind::vesica, ShapeKind::box,
-                                 ShapeKind::wedge, ShapeKind::half_shell, ShapeKind::tube}) {
+    for (const ShapeKind kind :
+         {ShapeKind::ball, ShapeKind::capsule, ShapeKind::cylinder, ShapeKind::frustum,
+          ShapeKind::vesica, ShapeKind::box, ShapeKind::wedge, ShapeKind::half_shell,
+          ShapeKind::tube, ShapeKind::grid}) {
       Work work(phantom::slab(), 0.25, 5);
-      const Shape shape = {kind, 1 * kMm, 0.7 * kMm, 2 * kMm, 0.2 * kMm};
+      const Shape shape = kind == ShapeKind::grid
+                              ? test::cylinder_grid(1 * kMm, 2 * kMm, 0.1 * kMm)
+                              : Shape{kind, 1 * kMm, 0.7 * kMm, 2 * kMm, 0.2 * kMm};
       work.cut_all(one_part(shape), {Vec3(0.1, 0.2, -0.5) * kMm, kTurned}, Sweep::turning);
       EXPECT_GT(work.carver.ledger().removed, 0) << "kind " << static_cast<int>(kind);
       hash = base::mix(hash, work.bone->content_hash());

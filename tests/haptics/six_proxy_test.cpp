@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "burr/haptics/proxy.h"
@@ -12,6 +13,7 @@
 #include "burr/math/turn.h"
 #include "burr/rt/simd.h"
 #include "scene.h"
+#include "support/mesh.h"
 #include "support/rt_guard.h"
 
 namespace burr::haptics {
@@ -147,6 +149,47 @@ TEST(SixProxy, ACylinderLyingOnAPlaneIsPushedStraightBackWithoutTorque) {
   const SixTouch touch = settle(proxy, {up * 5 * kMm, lying}, {up * (a - deep), lying});
   EXPECT_FALSE(touch.lagging);
   EXPECT_NEAR((touch.stretch - deep * up).norm() / deep, 0, 0.02);
+}
+
+// A tool from a mesh rests where the same tool by formula rests: on a plane, in a groove, on a ball. Its
+// edges are rounder than it is pressed in: on a sharp one any tool slides from point to point of bone.
+TEST(SixProxy, AMeshIsPushedAsTheBodyThatItIs) {
+  const tool::Shape truth = {ShapeKind::cylinder, 1.4 * kMm, 0, 3.4 * kMm, 0.6 * kMm};
+  std::vector<std::pair<double, double>> profile = {{0, -4 * kMm}};
+  for (const double end : {-1.0, 1.0})
+    for (int n = 0; n <= 16; ++n) {
+      const double angle = end < 0 ? M_PI / 2 * (n / 16.0 - 1) : M_PI / 2 * (n / 16.0);
+      profile.emplace_back((1.4 + 0.6 * std::cos(angle)) * kMm,
+                           (3.4 * end + 0.6 * std::sin(angle)) * kMm);
+    }
+  profile.emplace_back(0, 4 * kMm);
+  const auto grid = tool::grid_of(test::turned(profile, 128), 0.15 * kMm);
+  ASSERT_TRUE(grid.ok());
+  const tool::Shape mesh = test::grid_shape(*grid);
+  const phantom::Depth bones[] = {phantom::slab(Vec3(0.1, 0.2, 1)), phantom::groove(M_PI / 4),
+                                  phantom::ball(5 * kMm)};
+  const double lever = std::sqrt(300e-6);
+  for (const phantom::Depth& bone : bones) {
+    const Scene scene(bone, 0.25);
+    for (const double tilt : {0.4, 1.2}) {
+      const Pose from{{0.2 * kMm, 0.1 * kMm, 11 * kMm}, turn_about({1, 0.4, 0}, tilt)};
+      Pose to = from;
+      SixProxy first(scene.surface, one_part(truth), {.lever = lever}, from);
+      while (to.p.z() > 0 && first.step(to).active == 0) to.p.z() -= 0.02 * kMm;
+      to.p.z() -= 0.4 * kMm;
+      SixTouch touch[2];
+      for (int n = 0; n < 2; ++n) {
+        SixProxy proxy(scene.surface, one_part(n == 0 ? truth : mesh), {.lever = lever}, from);
+        touch[n] = settle(proxy, from, to);
+        EXPECT_GT(touch[n].active, 0);
+        EXPECT_GT(touch[n].stretch.norm(), 0.15 * kMm);
+        EXPECT_FALSE(touch[n].lagging);
+      }
+      EXPECT_NEAR((touch[1].stretch - touch[0].stretch).norm(), 0, 0.03 * kMm)
+          << tilt << " of " << 1e3 * touch[0].stretch.norm() << " mm";
+      EXPECT_NEAR((touch[1].turn - touch[0].turn).norm(), 0, 0.006) << tilt;
+    }
+  }
 }
 
 // One contact at the lever l from c: N = delta / (1/k_t + l^2/k_r), torque N l.

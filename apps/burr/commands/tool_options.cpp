@@ -2,12 +2,13 @@
 
 #include "burr/scenario/rack.h"
 #include "burr/tool/shaped_tool.h"
+#include "burr/workshop/mesh_shape.h"
 
 namespace burr::app {
 namespace {
 
 Result<scenario::Rack> rack_of(const ToolOptions& options) {
-  if (!options.tools.empty()) return scenario::read_rack(options.tools);
+  if (!options.tools.empty()) return scenario::read_rack(options.tools, workshop::mesh_shape);
   return scenario::Rack(scenario::built_in_rack());
 }
 

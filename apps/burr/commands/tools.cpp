@@ -14,6 +14,7 @@
 #include "burr/render/picture.h"
 #include "burr/render/renderer.h"
 #include "burr/scenario/rack.h"
+#include "burr/workshop/mesh_shape.h"
 #include "burr/workshop/tool_picture.h"
 #include "commands/command.h"
 #include "commands/json_line.h"
@@ -131,7 +132,7 @@ Status run(const Options& options) {
   if (!possible) return possible;
   scenario::Rack rack = scenario::built_in_rack();
   if (!options.file.empty()) {
-    auto read = scenario::read_rack(options.file);
+    auto read = scenario::read_rack(options.file, workshop::mesh_shape);
     if (!read) return read.error();
     rack = std::move(*read);
   }

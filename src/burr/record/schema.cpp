@@ -448,8 +448,11 @@ constexpr const char* kSessionSchema = R"({
    "items": {"type": "object", "properties": {
     "name": {"type": "string"},
     "parts": {"type": "array", "items": {"type": "object", "properties": {
-     "shape": {"enum": ["ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell", "tube"]},
+     "shape": {"enum": ["ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell", "tube", "grid"]},
      "sizes_m": {"type": "array", "items": {"type": "number"}, "description": "a, b, c and the rounding"},
+     "grid": {"type": "object", "description": "only of a grid, whose a is the edge of a cell; docs/touch.md", "properties": {
+      "size": {"type": "array", "items": {"type": "integer"}, "description": "nodes along x, y, z"},
+      "phi": {"type": "array", "items": {"type": "integer"}, "description": "distances in cells / 256, below 0 inside; x changes fastest"}}},
      "at_m": {"type": "array", "items": {"type": "number"}},
      "turn_xyzw": {"type": "array", "items": {"type": "number"}, "description": "tool_from_part"},
      "role": {"enum": ["cuts", "rubs", "seen"]}}}},

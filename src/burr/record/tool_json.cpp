@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "burr/record/private_text.h"
+#include "burr/tool/shape_grid.h"
 
 namespace burr::record {
 namespace {
@@ -13,7 +15,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, tool::kShapeKinds> kShapes = {
-    "ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell", "tube"};
+    "ball", "capsule", "cylinder",   "frustum", "vesica",
+    "box",  "wedge",   "half_shell", "tube",    "grid"};
 constexpr std::array<std::string_view, 3> kRoles = {"cuts", "rubs", "seen"};
 constexpr std::array<std::string_view, 5> kDrives = {"turning", "oscillating", "reciprocating",
                                                      "pushed", "struck"};
@@ -47,15 +50,42 @@ bool number(const json& object, const char* field, double& value) {
   return std::isfinite(value) && std::abs(value) < 1e9;
 }
 
+bool grid_from(const json& object, tool::Shape& shape) {
+  const auto grid = object.find("grid");
+  if (grid == object.end() || !grid->is_object()) return false;
+  tool::GridCells cells;
+  double size[3];
+  if (!numbers(*grid, "size", 3, size)) return false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(size[axis] >= 0 && size[axis] <= tool::kMostAlongAxis)) return false;
+    cells.size[axis] = static_cast<int>(size[axis]);
+  }
+  const auto phi = grid->find("phi");
+  if (phi == grid->end() || !phi->is_array() || phi->size() > tool::kMostNodes) return false;
+  for (const json& one : *phi) {
+    if (!one.is_number_integer()) return false;
+    const auto value = one.get<std::int64_t>();
+    if (value < INT16_MIN || value > INT16_MAX) return false;
+    cells.phi.push_back(static_cast<std::int16_t>(value));
+  }
+  shape.grid = tool::keep_grid(cells);
+  return shape.grid != nullptr;
+}
+
 json json_from(const tool::Part& part) {
   const tool::Shape& shape = part.shape;
   const math::Vec3& at = part.tool_from_part.p;
   const math::Quat& turn = part.tool_from_part.q;
-  return {{"shape", kShapes[static_cast<std::size_t>(shape.kind)]},
-          {"sizes_m", {shape.a, shape.b, shape.c, shape.rounding}},
-          {"at_m", {at.x(), at.y(), at.z()}},
-          {"turn_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}},
-          {"role", kRoles[static_cast<std::size_t>(part.role)]}};
+  json out = {{"shape", kShapes[static_cast<std::size_t>(shape.kind)]},
+              {"sizes_m", {shape.a, shape.b, shape.c, shape.rounding}},
+              {"at_m", {at.x(), at.y(), at.z()}},
+              {"turn_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}},
+              {"role", kRoles[static_cast<std::size_t>(part.role)]}};
+  if (shape.kind == tool::ShapeKind::grid) {
+    const tool::GridCells cells = tool::cells_of(*shape.grid);
+    out["grid"] = {{"size", cells.size}, {"phi", cells.phi}};
+  }
+  return out;
 }
 
 bool part_from(const json& object, tool::Part& part) {
@@ -65,6 +95,7 @@ bool part_from(const json& object, tool::Part& part) {
       !numbers(object, "at_m", 3, at) || !numbers(object, "turn_xyzw", 4, turn))
     return false;
   part.shape = {part.shape.kind, sizes[0], sizes[1], sizes[2], sizes[3]};
+  if (part.shape.kind == tool::ShapeKind::grid && !grid_from(object, part.shape)) return false;
   part.tool_from_part.p = math::Vec3(at[0], at[1], at[2]);
   part.tool_from_part.q.coeffs() << turn[0], turn[1], turn[2], turn[3];
   constexpr double kLargest = 0.5;  // [m]

@@ -1,4 +1,5 @@
 #include "burr/render/tool_mesh.h"
+#include "burr/tool/shape_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -112,6 +113,7 @@ Profile profile_of(const Shape& s) {
     case ShapeKind::ball:
     case ShapeKind::box:
     case ShapeKind::wedge:
+    case ShapeKind::grid:
       break;
   }
   return rolled({{0, 0}}, s.rounding);
@@ -179,9 +181,24 @@ surface::Mesh drawn_out(const std::vector<std::array<double, 2>>& outline, doubl
   return mesh;
 }
 
+surface::Mesh mesh_of_grid(const Shape& shape) {
+  const tool::GridSurface found = tool::surface_of(*shape.grid);
+  surface::Mesh mesh;
+  for (const Vec3& point : found.points) {
+    const Vec3 p = shape.a * point;
+    surface::Vertex vertex;
+    vertex.p = p.cast<float>();
+    vertex.n = tool::distance(shape, p).gradient.cast<float>();
+    mesh.vertices.push_back(vertex);
+  }
+  mesh.triangles.assign(found.triangles.begin(), found.triangles.end());
+  return mesh;
+}
+
 }  // namespace
 
 surface::Mesh mesh_of(const Shape& shape) {
+  if (shape.kind == ShapeKind::grid) return mesh_of_grid(shape);
   const double x = shape.a + shape.rounding, y = shape.b + shape.rounding,
                z = shape.c + shape.rounding;
   if (shape.kind == ShapeKind::box) return drawn_out({{-x, -z}, {x, -z}, {x, z}, {-x, z}}, y);

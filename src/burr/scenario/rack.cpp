@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -88,6 +89,13 @@ const struct {
      ShapeKind::tube,
      {"diameter_mm", "inner_mm", "length_mm", "edge_mm", "from_mm", "to_mm"}},
     {"half shell", ShapeKind::half_shell, {"diameter_mm", "height_mm", "edge_mm"}},
+    {"mesh", ShapeKind::grid, {"file", "mm_per_unit", "cell_mm"}},
+};
+
+// Where the meshes of a file come from.
+struct Meshes {
+  const MeshReader& read;
+  const std::string& folder;
 };
 
 std::optional<std::size_t> shape_named(Reader& reader) {
@@ -157,12 +165,31 @@ tool::Shape shape_of(ShapeKind kind, const Sizes& in) {
     case ShapeKind::wedge:
       return wedge_shape(in);
     case ShapeKind::half_shell:
+    case ShapeKind::grid:  // read_mesh_part()
       break;
   }
   return {kind, 0.5 * kMm * in.diameter_mm - edge, kMm * in.height_mm, 0, edge};
 }
 
-void read_part(Reader& reader, tool::Tool& out) {
+void read_mesh_part(Reader& reader, const Meshes& meshes, tool::Part& part) {
+  std::string file;
+  reader.text("file", file, true);
+  MeshWish wish;
+  double mm_per_unit = 1, cell_mm = 0;
+  reader.number("mm_per_unit", mm_per_unit, 1e-3, 1e3);
+  reader.number("cell_mm", cell_mm, 0.01, 10);
+  if (reader.failed()) return;
+  wish.path = (std::filesystem::path(meshes.folder) / file).string();
+  wish.m_per_unit = kMm * mm_per_unit;
+  wish.cell_m = kMm * cell_mm;
+  if (!meshes.read) return reader.fail("shape", "\"mesh\" is not possible here");
+  const auto made = meshes.read(wish);
+  if (!made) return reader.fail("file", made.error().text);
+  part.shape = made->shape;
+  part.tool_from_part.p = made->middle;
+}
+
+void read_part(Reader& reader, const Meshes& meshes, tool::Tool& out) {
   const auto which = shape_named(reader);
   if (!which) return;
   const ShapeKind kind = kShapes[*which].kind;
@@ -173,12 +200,15 @@ void read_part(Reader& reader, tool::Tool& out) {
   reader.choice<Role>("role", part.role,
                       {{"cuts", Role::cuts}, {"rubs", Role::rubs}, {"seen", Role::seen}}, true);
   Sizes in;
-  read_sizes(reader, kind, in);
+  if (kind == ShapeKind::grid)
+    read_mesh_part(reader, meshes, part);
+  else
+    read_sizes(reader, kind, in);
   std::optional<Vec3> at;
   reader.vector("at_mm", at);
   if (reader.failed()) return;
-  part.shape = shape_of(kind, in);
-  if (at) part.tool_from_part.p = kMm * *at;
+  if (kind != ShapeKind::grid) part.shape = shape_of(kind, in);
+  if (at) part.tool_from_part.p += kMm * *at;
   if (in.from_mm) part.tool_from_part.p.z() += 0.5 * kMm * (*in.from_mm + *in.to_mm);
   if (!tool::is_body(part.shape))
     return reader.fail("shape",
@@ -238,7 +268,7 @@ bool is_name(std::string_view name) {
          });
 }
 
-void read_tool(Reader& reader, Rack& rack) {
+void read_tool(Reader& reader, const Meshes& meshes, Rack& rack) {
   reader.only({"name", "title", "group", "source", "drive", "rpm", "strokes_per_minute",
                "stroke_mm", "blow_j", "way", "teeth", "efficiency", "least_weight", "lean_deg",
                "part"});
@@ -255,7 +285,7 @@ void read_tool(Reader& reader, Rack& rack) {
   reader.number("lean_deg", lean_deg, 0, 90);
   out.lean = lean_deg * std::numbers::pi / 180;
   reader.each(
-      "part", [&](Reader& inner) { read_part(inner, out.tool); },
+      "part", [&](Reader& inner) { read_part(inner, meshes, out.tool); },
       static_cast<std::size_t>(tool::Tool::kMostParts));
   const auto* end = out.tool.parts.begin() + out.tool.count;
   if (std::none_of(out.tool.parts.cbegin(), end,
@@ -295,14 +325,16 @@ const Rack& built_in_rack() {
   return rack;
 }
 
-Result<Rack> read_rack(const std::string& path) {
+Result<Rack> read_rack(const std::string& path, const MeshReader& meshes) {
   const auto text =
       base::text_of_file(path, kLargestFile, "a list of tools; check that this is the right file");
   if (!text) return text.error();
-  return parse_rack(*text, path, built_in_rack());
+  return parse_rack(*text, path, built_in_rack(), meshes,
+                    std::filesystem::path(path).parent_path().string());
 }
 
-Result<Rack> parse_rack(std::string_view text, std::string_view file, const Rack& base) {
+Result<Rack> parse_rack(std::string_view text, std::string_view file, const Rack& base,
+                        const MeshReader& meshes, const std::string& folder) {
   const auto table = parse_toml(text, file);
   if (!table) return table.error();
   Rack out = base;
@@ -310,7 +342,7 @@ Result<Rack> parse_rack(std::string_view text, std::string_view file, const Rack
   Reader reader(*table, std::string(file), "", wrong);
   reader.only({"tool"});
   if (!reader.has("tool")) reader.fail("tool", "is missing; give at least one [[tool]]");
-  reader.each("tool", [&](Reader& inner) { read_tool(inner, out); });
+  reader.each("tool", [&](Reader& inner) { read_tool(inner, {meshes, folder}, out); });
   if (wrong) return *wrong;
   return out;
 }

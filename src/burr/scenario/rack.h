@@ -8,6 +8,7 @@
 // the file, one sentence with file, line and field.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,13 +41,27 @@ struct Rack {
   [[nodiscard]] Result<RackTool> get(std::string_view name) const;
 };
 
+// A part that is a mesh from a file, which another room reads (workshop/mesh_shape.h).
+struct MeshWish {
+  std::string path;
+  double m_per_unit = 1e-3;  // of the file's lengths
+  double cell_m = 0;         // 0: chosen by the size
+};
+struct MeshShape {
+  tool::Shape shape;
+  math::Vec3 middle = math::Vec3::Zero();  // of the shape, in the frame of the mesh  [m]
+};
+using MeshReader = std::function<Result<MeshShape>(const MeshWish&)>;
+
 [[nodiscard]] const Rack& built_in_rack();
 
 // The built-in tools with those of the file; one of the same name takes the place of the built-in.
-[[nodiscard]] Result<Rack> read_rack(const std::string& path);
-// file: name for error messages; base: the tools that the text adds to.
+// Paths of meshes count from the folder of the file; without `meshes` no part may be one.
+[[nodiscard]] Result<Rack> read_rack(const std::string& path, const MeshReader& meshes = {});
+// file: name for error messages; base: the tools that the text adds to; folder: of the meshes.
 [[nodiscard]] Result<Rack> parse_rack(std::string_view text, std::string_view file,
-                                      const Rack& base);
+                                      const Rack& base, const MeshReader& meshes = {},
+                                      const std::string& folder = {});
 
 // How wide the cutting parts are across the tool's axis, in the wider of x and y.  [m]
 [[nodiscard]] double cutting_width(const RackTool& tool);

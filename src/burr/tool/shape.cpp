@@ -48,6 +48,12 @@ double core_support(const Shape& s, const Vec3& way) BURR_RT {
       const double rim = std::sqrt((s.a - s.b) * (s.a + s.b));
       return az * rim > ar * s.b ? rim * ar + s.b * az : s.a * length;
     }
+    case ShapeKind::grid: {  // of the box around it
+      double all = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        all += way[axis] * (way[axis] > 0 ? s.grid->hi[axis] : s.grid->lo[axis]);
+      return s.a * all;
+    }
   }
   return 0;
 }
@@ -78,11 +84,11 @@ BoundingBall bounding_ball(const Shape& shape) BURR_RT {
 }
 
 bool convex(ShapeKind kind) BURR_RT {
-  return kind != ShapeKind::half_shell && kind != ShapeKind::tube;
+  return kind != ShapeKind::half_shell && kind != ShapeKind::tube && kind != ShapeKind::grid;
 }
 
 Shape scaled(const Shape& s, double factor) BURR_RT {
-  return {s.kind, s.a * factor, s.b * factor, s.c * factor, s.rounding * factor};
+  return {s.kind, s.a * factor, s.b * factor, s.c * factor, s.rounding * factor, s.grid};
 }
 
 bool is_body(const Shape& s) BURR_RT {
@@ -107,6 +113,8 @@ bool is_body(const Shape& s) BURR_RT {
       return std::abs(s.b) < s.a && s.rounding > 0;
     case ShapeKind::tube:
       return s.b > s.rounding && s.b <= s.a && s.c + s.rounding > 0 && s.a - s.b + s.rounding > 0;
+    case ShapeKind::grid:
+      return s.a > 0 && s.grid != nullptr && s.rounding <= 0;
   }
   return false;
 }

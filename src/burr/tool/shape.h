@@ -3,7 +3,7 @@
 //     phi(y) = (signed distance of y to the core) - rounding      > 0 outside, |grad phi| = 1
 //
 // The rounding is what keeps the normal of contact from jumping at an edge: the curvature of the
-// distance outside is at most 1 / rounding. All kinds but half_shell are convex.
+// distance outside is at most 1 / rounding. All kinds but half_shell, tube and grid are convex.
 //
 // Frame: of the part; every kind but box and wedge is round about z. Units: any one length, the
 // same for sizes and places (m in a tool, voxel in touch). Thread: any. Memory: none.
@@ -26,7 +26,8 @@ struct Distance {
 
 [[nodiscard]] Distance distance(const Shape& shape, const math::Vec3& p) BURR_RT;
 
-// max over the shape of direction . p. direction need not be unit.
+// max over the shape of direction . p; of a grid, over the box around its body, which may be more.
+// direction need not be unit.
 [[nodiscard]] double support(const Shape& shape, const math::Vec3& direction) BURR_RT;
 
 // The smallest box with sides along the axes.

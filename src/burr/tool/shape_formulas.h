@@ -26,6 +26,7 @@ struct Sizes {
   Real a = 0, b = 0, c = 0, rounding = 0;
   Real e0 = 0, e1 = 0, length = 0;  // frustum, wedge: unit along the slant side (r, z), its length
   Real offset = 0, arc = 0;         // vesica: of the arc's centre from the axis, its radius
+  const ShapeGrid* grid = nullptr;
 };
 
 template <class Real>
@@ -42,9 +43,11 @@ template <class Real>
     d.offset = (s.c * s.c - s.a * s.a) / (2 * s.a);
     d.arc = d.offset + s.a;
   }
-  return {static_cast<Real>(s.a),        static_cast<Real>(s.b),      static_cast<Real>(s.c),
-          static_cast<Real>(s.rounding), static_cast<Real>(d.e0),     static_cast<Real>(d.e1),
-          static_cast<Real>(d.length),   static_cast<Real>(d.offset), static_cast<Real>(d.arc)};
+  return {static_cast<Real>(s.a),      static_cast<Real>(s.b),
+          static_cast<Real>(s.c),      static_cast<Real>(s.rounding),
+          static_cast<Real>(d.e0),     static_cast<Real>(d.e1),
+          static_cast<Real>(d.length), static_cast<Real>(d.offset),
+          static_cast<Real>(d.arc),    s.grid};
 }
 
 // One number at a time. A kernel's own struct has Number = rt::lanes::Floats, Real = float.
@@ -234,11 +237,92 @@ template <class M>
   out.phi = far - s.rounding;
 }
 
+// One place between the nodes of a grid: linear in each cell. Outside of the lattice, with v the value
+// at the nearest place p of its border and D the way from there: sqrt(v^2 + D^2), which is at most the
+// true distance, because the body lies in the lattice's box, which is convex.
+template <class Real>
+[[maybe_unused]] void grid_at(const Sizes<Real>& s, const Real (&at)[3], Real& phi,
+                              Real (&gradient)[3]) noexcept {
+  const ShapeGrid& g = *s.grid;
+  int first[3];
+  Real part[3], beyond[3], far = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Real last = static_cast<Real>(g.size[axis] - 1);
+    const Real wanted = at[axis] / s.a + static_cast<Real>(0.5) * last;
+    Real inside = wanted > 0 ? wanted : 0;  // also where it is not a number
+    inside = inside < last ? inside : last;
+    first[axis] = static_cast<int>(inside);
+    if (first[axis] > g.size[axis] - 2) first[axis] = g.size[axis] - 2;
+    part[axis] = inside - static_cast<Real>(first[axis]);
+    beyond[axis] = wanted - inside;
+    far += beyond[axis] * beyond[axis];
+  }
+  const int row = g.size[0], slice = row * g.size[1];
+  const float* node = g.phi + first[2] * slice + first[1] * row + first[0];
+  // along x, then y, then z: values v[z][y], and how much they grow along x
+  Real v[2][2], vx[2][2];
+  for (int z = 0; z < 2; ++z)
+    for (int y = 0; y < 2; ++y) {
+      const Real low = static_cast<Real>(node[z * slice + y * row]),
+                 high = static_cast<Real>(node[z * slice + y * row + 1]);
+      vx[z][y] = high - low;
+      v[z][y] = low + part[0] * vx[z][y];
+    }
+  const Real y0 = v[0][1] - v[0][0], y1 = v[1][1] - v[1][0];
+  const Real low = v[0][0] + part[1] * y0, high = v[1][0] + part[1] * y1;
+  const Real x0 = vx[0][0] + part[1] * (vx[0][1] - vx[0][0]),
+             x1 = vx[1][0] + part[1] * (vx[1][1] - vx[1][0]);
+  Real value = low + part[2] * (high - low);
+  Real grown[3] = {x0 + part[2] * (x1 - x0), y0 + part[2] * (y1 - y0), high - low};
+  if (far > 0) {
+    Real all = value * value + far;
+    all = std::sqrt(all);
+    for (int axis = 0; axis < 3; ++axis)
+      grown[axis] = beyond[axis] > 0 || beyond[axis] < 0 ? beyond[axis] : value * grown[axis];
+    value = all;
+  }
+  Real length = grown[0] * grown[0] + grown[1] * grown[1] + grown[2] * grown[2];
+  length = std::sqrt(length);
+  const bool known = length > static_cast<Real>(1e-6);
+  for (int axis = 0; axis < 3; ++axis) gradient[axis] = known ? grown[axis] / length : Real{};
+  if (!known) gradient[0] = 1;
+  phi = value * s.a;
+}
+
+template <class M>
+[[maybe_unused]] void grid_field(const Sizes<Size<M>>& s, const Num<M>& x, const Num<M>& y,
+                                 const Num<M>& z, Field<M>& out) noexcept {
+  if constexpr (sizeof(Num<M>) == sizeof(Size<M>)) {
+    const Size<M> at[3] = {x, y, z};
+    Size<M> phi, gradient[3];
+    grid_at(s, at, phi, gradient);
+    out.phi = phi;
+    out.x = gradient[0];
+    out.y = gradient[1];
+    out.z = gradient[2];
+  } else {
+    constexpr int kLanes = static_cast<int>(sizeof(Num<M>) / sizeof(Size<M>));
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const Size<M> at[3] = {x[lane], y[lane], z[lane]};
+      Size<M> phi, gradient[3];
+      grid_at(s, at, phi, gradient);
+      out.phi[lane] = phi;
+      out.x[lane] = gradient[0];
+      out.y[lane] = gradient[1];
+      out.z[lane] = gradient[2];
+    }
+  }
+}
+
 template <class M>
 [[maybe_unused]] void field_of(ShapeKind kind, const Sizes<Size<M>>& s, const Num<M>& x,
                                const Num<M>& y, const Num<M>& z, Field<M>& out) noexcept {
   if (kind == ShapeKind::ball) {
     ball_field<M>(s, x, y, z, out);
+    return;
+  }
+  if (kind == ShapeKind::grid) {
+    grid_field<M>(s, x, y, z, out);
     return;
   }
   const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);

@@ -14,13 +14,26 @@ enum class ShapeKind {
   wedge,       // core: edge at z = 0 along y, faces to half thickness a at z = c; |y| <= b
   half_shell,  // core: the sphere of radius a up to the height z = b, |b| < a; not convex
   tube,        // core: the ring between the radii b and a, b <= a, |z| <= c; not convex
+  grid,  // any body: distances on a lattice, whose cells have the edge a; b and c are not used
 };
-inline constexpr int kShapeKinds = 9;
+inline constexpr int kShapeKinds = 10;
+
+// Distances to a body's surface at the nodes of a lattice, linear between. The lattice's middle is the
+// origin. Made and kept by tool/shape_grid.h; never changed and never freed, so the tick may hold it.
+struct ShapeGrid {
+  int size[3] = {0, 0, 0};  // number of nodes along x, y, z
+  const float* phi =
+      nullptr;  // [cell], below 0 inside; node (x, y, z): [(z size[1] + y) size[0] + x]
+  double lo[3] = {0, 0, 0};  // the box around the body  [cell]
+  double hi[3] = {0, 0, 0};
+  double deepest = 0;  // greatest distance to the surface inside the body  [cell]
+};
 
 struct Shape {
   ShapeKind kind = ShapeKind::ball;
   double a = 0, b = 0, c = 0;  // as each kind says
-  double rounding = 0;         // >= 0
+  double rounding = 0;         // >= 0; a grid has none
+  const ShapeGrid* grid = nullptr;
 };
 
 }  // namespace burr::tool

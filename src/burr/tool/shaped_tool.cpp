@@ -26,6 +26,8 @@ double thickness(const Shape& shape) {
       return std::min(shape.a - shape.b, 2 * shape.c) + round;
     case ShapeKind::wedge:
       return 2 * shape.a + round;
+    case ShapeKind::grid:
+      return 2 * shape.grid->deepest * shape.a;
   }
   return round;
 }

@@ -21,6 +21,7 @@ struct ShapedTool {
 [[nodiscard]] double full_speed(const Cutter& cutter);
 
 // The smallest thickness of a part that touches; a wedge's edge, a tip and a cone's end do not count.
+// Of a grid it is the diameter of the largest ball inside.
 // A thinner part could slip between the points of bone, which are a voxel apart.  [m]
 [[nodiscard]] double thinnest(const Tool& tool);
 

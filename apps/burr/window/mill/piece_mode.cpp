@@ -67,6 +67,8 @@ std::shared_ptr<const render::CoarseMesh> moved(const render::CoarseMesh& mesh, 
   return out;
 }
 
+constexpr double kLeastNewsMm3 = 0.05;
+
 double degrees_of(const Quat& q) { return math::rotation_vector(q).norm() / kDegree; }
 
 }  // namespace
@@ -76,9 +78,11 @@ PieceMode::PieceMode(sim::Session& session, const scenario::Lesson* lesson)
 
 std::string PieceMode::look(bool open) {
   std::string text;
-  for (const sim::PieceMover::News& news : mover_.look())
+  for (const sim::PieceMover::News& news : mover_.look()) {
+    if (news.dust && news.volume < kLeastNewsMm3 * 1e-9) continue;  // it would read as 0.0 mm³
     text = news.dust ? say(Word::piece_dust, news.count, 1e9 * news.volume)
                      : say(Word::piece_free, 1e9 * news.volume);
+  }
   if (putting_ && mover_.state() == sim::PieceMover::State::put) {
     putting_ = false;
     taken_.reset();

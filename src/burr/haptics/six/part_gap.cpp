@@ -48,7 +48,8 @@ Capsule capsule_of(const PartPlace& part) BURR_RT {
       radius += shape.kind == ShapeKind::frustum ? std::max(shape.a, shape.b) : shape.a;
       break;
     case ShapeKind::box:
-    case ShapeKind::wedge: {
+    case ShapeKind::wedge:
+    case ShapeKind::grid: {
       const math::Aabb box = tool::bounds(shape);
       middle = 0.5 * (box.lo + box.hi);
       const Vec3 size = 0.5 * (box.hi - box.lo);

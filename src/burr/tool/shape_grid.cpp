@@ -1,0 +1,170 @@
+#include "burr/tool/shape_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <deque>
+#include <mutex>
+#include <utility>
+
+namespace burr::tool {
+namespace {
+
+using math::Vec3;
+
+struct Kept {
+  GridCells cells;
+  std::vector<float> phi;
+  ShapeGrid grid;
+};
+
+std::size_t node(const std::array<int, 3>& size, int x, int y, int z) {
+  return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) +
+          static_cast<std::size_t>(y)) *
+             static_cast<std::size_t>(size[0]) +
+         static_cast<std::size_t>(x);
+}
+
+// Calls one(x, y, z, value) for every node.
+template <class One>
+void each_node(const GridCells& cells, const One& one) {
+  std::size_t at = 0;
+  for (int z = 0; z < cells.size[2]; ++z)
+    for (int y = 0; y < cells.size[1]; ++y)
+      for (int x = 0; x < cells.size[0]; ++x) one(x, y, z, int{cells.phi[at++]});
+}
+
+bool has_sizes(const GridCells& cells) {
+  std::int64_t nodes = 1;
+  for (const int n : cells.size) {
+    if (n < 4 || n > kMostAlongAxis) return false;
+    nodes *= n;
+  }
+  return nodes <= kMostNodes && cells.phi.size() == static_cast<std::size_t>(nodes);
+}
+
+bool is_body(const GridCells& cells) {
+  if (!has_sizes(cells)) return false;
+  bool good = true, inside = false;
+  const std::array<std::size_t, 3> next = {1, static_cast<std::size_t>(cells.size[0]),
+                                           node(cells.size, 0, 0, 1)};
+  each_node(cells, [&](int x, int y, int z, int value) {
+    const std::array<int, 3> at = {x, y, z};
+    inside = inside || value < 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool border = at[axis] == 0 || at[axis] == cells.size[axis] - 1;
+      if (border && value < kPerCell) good = false;
+      if (at[axis] + 1 >= cells.size[axis]) continue;
+      const int other = cells.phi[node(cells.size, x, y, z) + next[axis]];
+      if (std::abs(other - value) > kPerCell + kPerCell / 100 + 1) good = false;
+    }
+  });
+  return good && inside;
+}
+
+// The box around all places where the distance is 0, and the deepest node.
+void measure(const GridCells& cells, ShapeGrid& grid) {
+  const Vec3 middle = 0.5 * Vec3(cells.size[0] - 1, cells.size[1] - 1, cells.size[2] - 1);
+  Vec3 lo = middle, hi = -middle;
+  each_node(cells, [&](int x, int y, int z, int value) {
+    if (value > 0) return;
+    const Vec3 at = Vec3(x, y, z) - middle;
+    // the surface lies within its distance of a node inside, and no farther than the next node
+    const double reach = std::min(1.0, -1.0 * value / kPerCell + 1.0 / kPerCell);
+    lo = lo.cwiseMin(at - Vec3::Constant(reach));
+    hi = hi.cwiseMax(at + Vec3::Constant(reach));
+    grid.deepest = std::max(grid.deepest, -1.0 * value / kPerCell);
+  });
+  for (int axis = 0; axis < 3; ++axis) {
+    grid.lo[axis] = lo[axis];
+    grid.hi[axis] = hi[axis];
+  }
+}
+
+}  // namespace
+
+const ShapeGrid* keep_grid(const GridCells& cells) {
+  if (!is_body(cells)) return nullptr;
+  static std::mutex mutex;
+  static auto& all = *new std::deque<Kept>;  // never destroyed: tools may outlive any order of ends
+  const std::lock_guard lock(mutex);
+  for (const Kept& one : all)
+    if (one.cells == cells) return &one.grid;
+  Kept& kept = all.emplace_back();
+  kept.cells = cells;
+  kept.phi.reserve(cells.phi.size());
+  for (const std::int16_t value : cells.phi)
+    kept.phi.push_back(static_cast<float>(value) / static_cast<float>(kPerCell));
+  std::copy(cells.size.begin(), cells.size.end(), kept.grid.size);
+  kept.grid.phi = kept.phi.data();
+  measure(kept.cells, kept.grid);
+  return &kept.grid;
+}
+
+GridCells cells_of(const ShapeGrid& grid) {
+  GridCells cells;
+  std::copy(grid.size, grid.size + 3, cells.size.begin());
+  const std::size_t count = node(cells.size, 0, 0, grid.size[2]);
+  cells.phi.reserve(count);
+  for (std::size_t n = 0; n < count; ++n)
+    cells.phi.push_back(static_cast<std::int16_t>(std::lround(grid.phi[n] * kPerCell)));
+  return cells;
+}
+
+GridSurface surface_of(const ShapeGrid& grid) {
+  GridSurface out;
+  const GridCells cells = cells_of(grid);
+  const auto& size = cells.size;
+  const Vec3 middle = 0.5 * Vec3(size[0] - 1, size[1] - 1, size[2] - 1);
+  const auto value = [&](int x, int y, int z) -> double { return cells.phi[node(size, x, y, z)]; };
+  // one point in every cell that the surface crosses: the mean of its crossings of the cell's edges
+  constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  std::vector<std::uint32_t> point(cells.phi.size(), kNone);
+  for (int z = 0; z + 1 < size[2]; ++z)
+    for (int y = 0; y + 1 < size[1]; ++y)
+      for (int x = 0; x + 1 < size[0]; ++x) {
+        Vec3 sum = Vec3::Zero();
+        int count = 0;
+        for (int corner = 0; corner < 8; ++corner)
+          for (int axis = 0; axis < 3; ++axis) {
+            if (((corner >> axis) & 1) != 0) continue;
+            std::array<int, 3> low = {x + (corner & 1), y + ((corner >> 1) & 1), z + (corner >> 2)};
+            std::array<int, 3> high = low;
+            ++high[static_cast<std::size_t>(axis)];
+            const double a = value(low[0], low[1], low[2]), b = value(high[0], high[1], high[2]);
+            if ((a < 0) == (b < 0)) continue;
+            Vec3 at(low[0], low[1], low[2]);
+            at[axis] += a / (a - b);
+            sum += at;
+            ++count;
+          }
+        if (count == 0) continue;
+        point[node(size, x, y, z)] = static_cast<std::uint32_t>(out.points.size());
+        out.points.emplace_back(sum / count - middle);
+      }
+  // a face for every crossed edge of the lattice, between the four cells around it
+  for (int z = 1; z + 1 < size[2]; ++z)
+    for (int y = 1; y + 1 < size[1]; ++y)
+      for (int x = 1; x + 1 < size[0]; ++x)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          std::array<int, 3> next = {x, y, z};
+          ++next[axis];
+          const bool inside = value(x, y, z) < 0;
+          if (inside == (value(next[0], next[1], next[2]) < 0)) continue;
+          std::array<std::array<int, 3>, 4> around;
+          around.fill({x, y, z});
+          const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+          --around[0][u], --around[0][v];
+          --around[1][v];
+          --around[3][u];
+          std::array<std::uint32_t, 4> face;
+          for (std::size_t n = 0; n < 4; ++n)
+            face[n] = point[node(size, around[n][0], around[n][1], around[n][2])];
+          if (!inside) std::swap(face[1], face[3]);
+          out.triangles.insert(out.triangles.end(),
+                               {face[0], face[1], face[2], face[0], face[2], face[3]});
+        }
+  return out;
+}
+
+}  // namespace burr::tool
