@@ -11,6 +11,8 @@
 namespace burr::app {
 namespace {
 
+constexpr std::size_t kText = 600;  // bytes of a text for people; a name has fewer
+
 using scoring::Item;
 using scoring::Outcome;
 using scoring::Part;
@@ -118,11 +120,11 @@ std::string gate_line(const scoring::Rubric& rubric, const scoring::Score& score
 
 std::string explanation(const Item& item, const Outcome& outcome, double rate_hz) {
   std::string text =
-      fmt::format("{}\n  {}\n  {}", base::printable(item.id), base::printable(item.say.in("en")),
-                  scoring::word_of(outcome.verdict));
+      fmt::format("{}\n  {}\n  {}", base::printable(item.id),
+                  base::printable(item.say.in("en"), kText), scoring::word_of(outcome.verdict));
   if (item.gate) text += ", a gate";
   if (outcome.borderline) text += ", borderline: a person should look";
-  if (!outcome.reason.empty()) text += "\n  why: " + base::printable(outcome.reason);
+  if (!outcome.reason.empty()) text += "\n  why: " + base::printable(outcome.reason, kText);
   text += fmt::format("\n  measure: {} ({}; docs/metrics.md)", item.how->name,
                       scoring::word_of(item.part));
   if (!item.structure.empty()) text += "\n  structure: " + base::printable(item.structure);
@@ -148,7 +150,7 @@ std::string explanation(const Item& item, const Outcome& outcome, double rate_hz
                         *outcome.tick);
   if (!item.needs.empty()) text += "\n  requires: " + base::printable(item.needs);
   text += fmt::format("\n  weight: {:g}", item.weight);
-  if (!item.source.empty()) text += "\n  source: " + base::printable(item.source);
+  if (!item.source.empty()) text += "\n  source: " + base::printable(item.source, kText);
   return text;
 }
 
