@@ -20,8 +20,8 @@
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
-#include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
+#include "support/crossing.h"
 #include "support/folder.h"
 #include "support/rt_guard.h"
 
@@ -98,16 +98,6 @@ struct Bench {
   }
 };
 
-// Where the surface crosses the line from p along d, in the field of a bone [m from p].
-double crossing(const Bone& bone, const Vec3& p, const Vec3& d) {
-  double before = 0, value = 0;
-  for (double t = 0; t < 40 * kMm; t += kVoxel / 4) {
-    before = std::exchange(value, volume::depth_at(bone, p + t * d));
-    if (t > 0 && before >= 0 && value < 0) return t - kVoxel / 4 * (value / (value - before));
-  }
-  return -1;
-}
-
 TEST(Pieces, AMovedBoxSitsWhereItShould) {
   Bench bench;
   // 3.1 mm along x: not a whole number of voxels; and 20 degrees about z
@@ -123,7 +113,7 @@ TEST(Pieces, AMovedBoxSitsWhereItShould) {
   for (const auto& [d, far] : {std::pair{along, 3.75 * kMm}, std::pair{Vec3(-along), 3.75 * kMm},
                                std::pair{across, 3 * kMm}, std::pair{Vec3(-across), 3 * kMm},
                                std::pair{Vec3(0, 0, 1), 3 * kMm}})
-    EXPECT_NEAR(crossing(piece, centre, d), far, 0.1 * kVoxel) << d.transpose();
+    EXPECT_NEAR(test::crossing(piece, centre, d), far, 0.1 * kVoxel) << d.transpose();
   bench.expect_account("after the move");
 }
 

@@ -114,6 +114,7 @@ TEST(Pieces, ABridgeOfOneVoxelHoldsAndNoneFrees) {
 TEST(Pieces, FollowTheCut) {
   const auto bone = bone_of(24, blocks(4));
   PieceFinder finder(*bone);
+  EXPECT_EQ(finder.update(), 0U);
   ASSERT_EQ(finder.pieces().size(), 1U);
   // the bridge is cut away, voxel by voxel
   for (int j = 2; j < 6; ++j) {

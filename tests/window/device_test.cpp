@@ -2,17 +2,27 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <Eigen/Geometry>
+
+#include "burr/volume/pieces.h"
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/suction_hand.h"
 #include "commands/work.h"
 #include "device/fake/fake_hd.h"
 #include "window/mill/make_ready.h"
+#include "window/mill/side_panel.h"
 #include "window/stick.h"
+#include "window/two_blocks.h"
 #include "window/user.h"
 
 namespace burr::app {
@@ -477,6 +487,155 @@ TEST_F(DeviceWindow, ADeviceThatIsNotThereIsRefusedBeforeTheBoneIsMade) {
   const auto ready = with_touch();
   ASSERT_FALSE(ready);
   EXPECT_NE(ready.error().text.find("cable"), std::string::npos) << ready.error().text;
+}
+
+// A piece of bone that was taken, carried by the hand of a device.
+class CarriedPiece : public DeviceWindow {
+ protected:
+  static constexpr double kMm = 1e-3;
+
+  void hold(const Vec3& mm, double degrees, bool grabs) {
+    const std::lock_guard lock(hd_->mutex);
+    test::FakeTouch& touch = hd_->touch[0];
+    const double a = degrees * M_PI / 180;
+    touch.transform = {std::cos(a), std::sin(a), 0, 0, -std::sin(a), std::cos(a), 0,      0,
+                       0,           0,           1, 0, mm.x(),       mm.y(),      mm.z(), 1};
+    touch.buttons = grabs ? 1 : 0;
+  }
+  void click_take() const {
+    const float u = desk_->ui().unit();
+    click(static_cast<int>((kSideLeft + kSideWide - 50) * u),
+          static_cast<int>((kSideTop + 48 + 16) * u));
+  }
+  // Where the corners of the ghost are.
+  static std::vector<Vec3> places(const Ready& ready, std::size_t softs) {
+    std::vector<Vec3> out;
+    if (ready.scene.soft.size() <= softs) return out;
+    for (const render::SkinVertex& vertex : ready.scene.soft.back().mesh->vertices)
+      out.push_back(vertex.p.cast<double>());
+    return out;
+  }
+  static Vec3 middle(const std::vector<Vec3>& points) {
+    math::Aabb box;
+    for (const Vec3& p : points) box.extend(p);
+    return box.centre();
+  }
+
+  static std::size_t farthest(const std::vector<Vec3>& points) {
+    std::size_t found = 0;
+    for (std::size_t n = 1; n < points.size(); ++n)
+      if ((points[n] - points[0]).norm() > (points[found] - points[0]).norm()) found = n;
+    return found;
+  }
+
+  void carries(Ready& ready) {
+    const std::size_t softs = ready.scene.soft.size();
+    const render::Scene& scene = ready.scene;
+    std::vector<Vec3> start;
+    Vec3 at = Vec3(3, 0, 0);  // of the stylus [mm]
+    double turned = 0;        // [degree]
+    // Of the copy, along the axes of the picture [mm], and about the one to the user [degree].
+    const auto by = [&] {
+      const std::vector<Vec3> now = places(ready, softs);
+      if (now.empty()) return Vec3(Vec3::Constant(1e3));
+      return Vec3(1e3 * (view_.conjugate() * (middle(now) - middle(start))));
+    };
+    const auto turn = [&] {
+      const std::vector<Vec3> now = places(ready, softs);
+      if (now.empty()) return 1e3;
+      const std::size_t far = farthest(start);
+      const Vec3 before = view_.conjugate() * (start[far] - start[0]),
+                 after = view_.conjugate() * (now[far] - now[0]);
+      return std::remainder(
+          (std::atan2(after.y(), after.x()) - std::atan2(before.y(), before.x())) * 180 / M_PI,
+          360);
+    };
+    const auto lies_at = [&](const Vec3& mm, double degrees) {
+      return (by() - mm).norm() < 0.02 && std::abs(turn() - degrees) < 0.1;
+    };
+    // Lets go, grabs, and goes by what is left; again where a busy machine lost the hand meanwhile.
+    const auto carrying_to = [&](const Vec3& mm, double degrees) {
+      return [&, mm, degrees, pictures = 0]() mutable {
+        constexpr int kRound = 60, kGrab = 10, kGo = 20;
+        if (lies_at(mm, degrees)) return true;
+        const int now = pictures++ % kRound;
+        if (now == kGo) {
+          at += mm - by();
+          turned += degrees - turn();
+        }
+        hold(at, turned, now >= kGrab);
+        return false;
+      };
+    };
+    mill_by(
+        ready,
+        {{"a picture", looks(3), [] { press(SDLK_m, KMOD_CTRL); }},
+         {"the frame of the piece", [&] { return scene.rods.size() >= 12; }, [&] { click_take(); }},
+         {"the ghost",
+          asking_until([&] { return scene.soft.size() > softs; }, [&] { click_take(); }),
+          [&] {
+            start = places(ready, softs);
+            view_ = view_of_hand(scene.camera);
+            hold(at, 0, false);
+          }},
+         {"a hand that does not grab moves nothing", looks(30),
+          [&] { EXPECT_TRUE(lies_at(Vec3::Zero(), 0)); }},
+         {"the copy has followed", carrying_to({6, 0, 0}, 0),
+          [&] {
+            static_cast<void>(hand(*ready.session));
+            EXPECT_EQ(row_.spindle_rad_s, 0) << "the button drives no tool";
+            EXPECT_EQ(row_.tool.mode == tool::Mode::touch, ready.hands.real != nullptr);
+            hold(at, turned, false);
+          }},
+         {"let go", looks(20),
+          [&] {
+            hold(at = {-5, 0, 0}, turned, false);
+          }},
+         {"it stays", looks(20),
+          [&] {
+            EXPECT_TRUE(lies_at({6, 0, 0}, 0)) << by();
+          }},
+         {"up and turned", carrying_to({6, 2, 0}, 15), [&] { hold(at, turned, false); }},
+         {"let go again", looks(20),
+          [&] {
+            EXPECT_TRUE(lies_at({6, 2, 0}, 15)) << by();
+            press(SDLK_RETURN);
+          }},
+         {"it lies there",
+          [&] { return desk_->status_text.find(word(Word::piece_lies)) != std::string::npos; },
+          {}},
+         {"the tool cuts again",
+          [&] {
+            static_cast<void>(hand(*ready.session));
+            return row_.tool.mode == tool::Mode::cut;
+          },
+          [] { close_window(); }}});
+    EXPECT_EQ(ready.session->outcome().ledger.removed, 0) << "the button that carries cuts nothing";
+    const volume::PieceFinder finder(std::as_const(ready.session->bone()));
+    ASSERT_EQ(finder.pieces().size(), 2U);
+    const volume::Piece& piece = finder.pieces().back();
+    const Vec3 lies =
+        ready.session->bone().grid().world_from_grid(0.5 * (piece.low + piece.high).cast<double>());
+    EXPECT_LT((lies - middle(start) - view_ * Vec3(6, 2, 0) * kMm).norm(), kBlockVoxel);
+  }
+
+  math::Quat view_;  // x right, y up, z to the user, as the piece was taken
+};
+
+TEST_F(CarriedPiece, ByTheFirstHandWhoseToolRestsMeanwhile) {
+  WorkOptions options;
+  options.hand.device = "touch";
+  auto ready = ready_two_blocks(options);
+  ASSERT_TRUE(ready) << ready.error().text;
+  carries(*ready);
+}
+
+TEST_F(CarriedPiece, ByAFreeSecondHandBesideAMouse) {
+  WorkOptions options;
+  options.suction = "touch";
+  auto ready = ready_two_blocks(options);
+  ASSERT_TRUE(ready) << ready.error().text;
+  carries(*ready);
 }
 
 }  // namespace

@@ -1,20 +1,14 @@
 // A free piece of bone at the window: taken from the list, moved by keys, put down, undone.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
-#include <string>
 #include <utility>
 
-#include "burr/phantom/build.h"
-#include "burr/phantom/shapes.h"
 #include "burr/volume/pieces.h"
 #include "burr/volume/sample.h"
-#include "commands/work.h"
+#include "two_blocks.h"
 #include "user.h"
-#include "window/mill/make_ready.h"
 #include "window/mill/side_panel.h"
 
 namespace burr::app {
@@ -22,31 +16,10 @@ namespace {
 
 using math::Vec3;
 
-constexpr double kMm = 1e-3, kVoxel = 0.5 * kMm;
-
-// Two blocks, 1 mm apart; the right one is the smaller.
-std::unique_ptr<volume::Bone> two_blocks(const volume::TissueTable& tissues) {
-  const phantom::Depth whole = phantom::box({10 * kMm, 4 * kMm, 4 * kMm});
-  return phantom::bone_from_distance(
-      phantom::box_grid(Vec3(-16, -10, -10) * kMm, Vec3(24, 10, 12) * kMm, kVoxel), tissues,
-      [whole](const Vec3& p) { return std::min(whole(p), std::abs(p.x() - 3 * kMm) - 0.5 * kMm); },
-      1024);
-}
+constexpr double kMm = 1e-3;
 
 class PiecesWindow : public Window {
  protected:
-  static Result<Ready> ready() {
-    WorkOptions options;
-    options.volume.source = "block";
-    options.volume.voxel_mm = 1e3 * kVoxel;
-    NoProgress quiet;
-    if (const Status taken = take_case(options); !taken) return taken.error();
-    auto work = open_work(options, quiet);
-    if (!work) return work.error();
-    work->bone = two_blocks(work->bone->tissues());
-    work->work_case.reset();
-    return make_ready(options, std::move(*work), quiet);
-  }
   void click_take() const {
     const float u = desk_->ui().unit();
     click(static_cast<int>((kSideLeft + kSideWide - 50) * u),
@@ -55,7 +28,7 @@ class PiecesWindow : public Window {
 };
 
 TEST_F(PiecesWindow, AFreePieceIsTakenMovedPutDownAndBroughtBack) {
-  auto made = ready();
+  auto made = ready_two_blocks();
   ASSERT_TRUE(made) << made.error().text;
   Ready& ready = *made;
   const std::uint64_t at_start = ready.session->bone().content_hash();
@@ -92,7 +65,7 @@ TEST_F(PiecesWindow, AFreePieceIsTakenMovedPutDownAndBroughtBack) {
 }
 
 TEST_F(PiecesWindow, WhatIsPutDownLiesWhereItWasShown) {
-  auto made = ready();
+  auto made = ready_two_blocks();
   ASSERT_TRUE(made) << made.error().text;
   Ready& ready = *made;
   const std::size_t softs = ready.scene.soft.size();
@@ -121,7 +94,7 @@ TEST_F(PiecesWindow, WhatIsPutDownLiesWhereItWasShown) {
            {"the ghost has moved", looks(5), [] { press(SDLK_RETURN); }},
            {"it lies there", told(Word::piece_lies), [] { close_window(); }}});
   const Vec3 by = boxed(ready.session->bone()) - before;
-  EXPECT_LT((by - 3.5 * kMm * right).norm(), kVoxel) << (1e3 * by).transpose();
+  EXPECT_LT((by - 3.5 * kMm * right).norm(), kBlockVoxel) << (1e3 * by).transpose();
 }
 
 }  // namespace

@@ -11,12 +11,16 @@
 #include "burr/metrics/piece_fit.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
+#include "burr/scenario/rack.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/sim/session.h"
+#include "burr/surgeon/plane_cut.h"
 #include "burr/volume/pieces.h"
-#include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
+#include "burr/workshop/label_check.h"
 #include "burr/workshop/piece_plan.h"
+#include "burr/workshop/prepare.h"
+#include "support/crossing.h"
 
 namespace burr::workshop {
 namespace {
@@ -47,15 +51,6 @@ device::HandPath across(double deepest) {
   go(8, 6, 20 * kMm, 0);
   path.points.push_back({t + 3600, path.points.back().world_from_tool, 0});
   return path;
-}
-
-double face(const volume::Bone& bone, const Vec3& p, const Vec3& d) {
-  double before = 0, value = 0;
-  for (double s = 0; s < 40 * kMm; s += kVoxel / 4) {
-    before = std::exchange(value, volume::depth_at(bone, p + s * d));
-    if (s > 0 && before >= 0 && value < 0) return s - kVoxel / 4 * (value / (value - before));
-  }
-  return -1;
 }
 
 TEST(Segment, CutFreeAndMovedByFiveMillimetresItSitsWhereThePlanSays) {
@@ -99,8 +94,10 @@ TEST(Segment, CutFreeAndMovedByFiveMillimetresItSitsWhereThePlanSays) {
   EXPECT_LT(off.turned_off * 180 / M_PI, 0.001);
   EXPECT_NEAR(1e3 * off.way, 5, 0.001);
   // the truth: its end was at x = 10
-  EXPECT_NEAR(face(*places[0].piece, Vec3(12, 0, 0) * kMm, Vec3::UnitX()), 3 * kMm, 0.1 * kVoxel);
-  EXPECT_NEAR(face(*places[0].piece, Vec3(12, 0, 0) * kMm, Vec3::UnitY()), 2.5 * kMm, 0.1 * kVoxel);
+  EXPECT_NEAR(test::crossing(*places[0].piece, Vec3(12, 0, 0) * kMm, Vec3::UnitX()), 3 * kMm,
+              0.1 * kVoxel);
+  EXPECT_NEAR(test::crossing(*places[0].piece, Vec3(12, 0, 0) * kMm, Vec3::UnitY()), 2.5 * kMm,
+              0.1 * kVoxel);
   const edit::Ledger ledger = session.outcome().ledger;
   EXPECT_NEAR(volume::volume_of(session.bone()) + ledger.removed + ledger.moved, whole,
               1e-6 * whole);
@@ -130,6 +127,101 @@ TEST(Segment, CutFreeAndMovedByFiveMillimetresItSitsWhereThePlanSays) {
   off = off_plan(plan, places[0].now * places[0].centre - places[0].centre, places[0].now.q);
   EXPECT_LT(1e3 * off.off, 0.001);
   EXPECT_NEAR(off.turned_off * 180 / M_PI, 3, 0.001);
+}
+
+// The case of the lower jaw: its front segment is sawn off along the planned plane, raised as planned,
+// and measured against the formula.
+TEST(Segment, TheJawIsSawnAlongItsPlanAndItsFrontIsRaisedAsPlanned) {
+  NoProgress quiet;
+  const auto work = scenario::read_case("jaw");
+  ASSERT_TRUE(work.ok()) << work.error().text;
+  const auto lesson = placed_lesson(*work);
+  ASSERT_TRUE(lesson.ok()) << lesson.error().text;
+  ASSERT_EQ(lesson->pieces.size(), 1U);
+  const scenario::PlannedPiece& plan = lesson->pieces[0];
+  EXPECT_NEAR(1e3 * plan.by.norm(), 5, 0.001);
+  auto prepared = prepare(*work, quiet);
+  ASSERT_TRUE(prepared.ok()) << prepared.error().text;
+  const auto plane = surgeon::plane_of(*lesson, "divide");
+  ASSERT_TRUE(plane.ok()) << plane.error().text;
+  EXPECT_NEAR(plan.by.dot(plane->normal), 0, 1e-5) << "it slides along the cut";
+  const scenario::RackTool saw = *scenario::built_in_rack().get("reciprocating-saw");
+  auto path = surgeon::cut_along(*prepared->bone, *plane,
+                                 surgeon::blade_of(saw.tool, saw.cutter, saw.lean), 50);
+  ASSERT_TRUE(path.ok()) << path.error().text;
+  const double seconds = path->duration();
+  path->points.push_back({seconds + 3600, path->points.back().world_from_tool, 0});
+
+  // what lies in front of the kerf, and behind it, in voxels
+  constexpr double kKerf = 0.7 * kMm, kNear = 0.3 * kMm;
+  const auto inside = [&](const volume::Bone& bone, double from, double to) {
+    double count = 0;
+    for (volume::BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {
+      const volume::Field* const field = bone.brick_field(brick);
+      if (field == nullptr) continue;
+      for (int v = 0; v < volume::kBrickVoxels; ++v) {
+        const math::Ijk at = bone.brick_ijk(brick) + math::Ijk(v & 7, v >> 3 & 7, v >> 6);
+        const double d =
+            (bone.grid().world_from_grid(at.cast<double>()) - plane->at).dot(plane->normal);
+        if (field[v] >= volume::kIso && d > from && d < to) ++count;
+      }
+    }
+    return count;
+  };
+  constexpr double kFar = 1;  // [m]
+  const double front = inside(*prepared->bone, kKerf / 2, kFar);
+  const double untouched = inside(*prepared->bone, kKerf / 2 + kNear, kFar);
+  const double behind = inside(*prepared->bone, -kFar, -kKerf / 2 - kNear);
+  const double whole = volume::volume_of(*prepared->bone);
+
+  sim::SessionSettings settings = settings_of(*prepared);
+  settings.servo.tools = {{saw.name, saw.tool, saw.cutter}};
+  settings.servo.tool = 0;
+  // an arm that never tires, and a stiff spring, so that the saw needs a minute and not four
+  settings.servo.force.stiffness = 5000;
+  auto made =
+      begin(*prepared,
+            std::make_unique<device::SimulatedHand>(
+                std::move(*path), device::ArmSettings{.stiffness = INFINITY},
+                device::DeviceSpec{.peak_force = 8, .continuous_force = 8, .max_stiffness = 5000}),
+            settings, quiet);
+  ASSERT_TRUE(made.ok()) << made.error().text;
+  sim::Session& session = **made;
+  session.run(seconds, quiet);
+  EXPECT_EQ(inside(session.bone(), kKerf / 2 + kNear, kFar), untouched);
+  EXPECT_EQ(inside(session.bone(), -kFar, -kKerf / 2 - kNear), behind);
+
+  edit::PieceStore store;
+  ASSERT_EQ(store.list(session.bone()).size(), 1U) << "the cut did not free the segment";
+  const auto moved = sim::move_piece(session, store, {plan.near.at, plan.by, Vec3::Zero()}, quiet);
+  ASSERT_TRUE(moved.ok()) << moved.error().text;
+  const auto places = store.moved(session.bone());
+  ASSERT_EQ(places.size(), 1U);
+  ASSERT_EQ(plan_of(*lesson, *places[0].came_free), &plan);
+  EXPECT_NEAR(inside(*places[0].came_free, -kFar, kFar), front, 0.01 * front);
+  const OffPlan off =
+      off_plan(plan, places[0].now * places[0].centre - places[0].centre, places[0].now.q);
+  EXPECT_LT(1e3 * off.off, 0.001);
+  EXPECT_LT(off.turned_off * 180 / M_PI, 0.001);
+  EXPECT_NEAR(1e3 * off.way, 5, 0.001);
+  // the truth: by the formula its front end was flat, at y = -39 mm
+  const Vec3 in_front = Vec3(-6.8, -38.2, -18) * kMm + plan.by;
+  EXPECT_NEAR(1e3 * (in_front.y() - test::crossing(*places[0].piece, in_front, -Vec3::UnitY())),
+              -39 + 0.696, 0.1 * 0.25);
+  const metrics::PieceFit fit =
+      metrics::piece_fit(*places[0].piece, *store.without_moved(session.bone()));
+  // walls of cortex face each other over the kerf; pits of marrow are deeper
+  EXPECT_NEAR(1e3 * fit.gap_least, 0.7, 0.15);
+  ASSERT_TRUE(fit.has_step);
+  EXPECT_GT(1e3 * fit.step_most, 3) << "at ridge and border; at the sides the outer faces go on";
+  const edit::Ledger ledger = session.outcome().ledger;
+  EXPECT_NEAR(volume::volume_of(session.bone()) + ledger.removed + ledger.moved, whole,
+              1e-6 * whole);
+
+  // as it was before the move, for who judges the cut
+  const auto back = store.with_pieces_back(session.bone());
+  EXPECT_NEAR(volume::volume_of(*back) + ledger.removed, whole, 1e-9 * whole);
+  EXPECT_EQ(inside(*back, kKerf / 2 + kNear, kFar), untouched);
 }
 
 }  // namespace

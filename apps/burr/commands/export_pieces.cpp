@@ -81,7 +81,7 @@ Status export_pieces(const volume::Bone& bone, const std::string& out,
         force);
     if (!allowed) return allowed;
   }
-  const nlohmann::ordered_json told = pieces_json(store, bone);
+  const nlohmann::ordered_json told = pieces_json(moved_pieces(store, bone));
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     const std::string path = numbered(out, n + 1);

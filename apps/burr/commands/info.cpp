@@ -10,9 +10,13 @@
 #include "burr/base/printable.h"
 #include "burr/io/sandbox/fence.h"
 #include "burr/record/player.h"
+#include "burr/sim/move_pieces.h"
+#include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
+#include "burr/workshop/recording.h"
 #include "commands/command.h"
 #include "commands/json_line.h"
+#include "commands/piece_words.h"
 #include "commands/session_words.h"
 #include "commands/volume_words.h"
 #include "window/replay/playback.h"
@@ -188,6 +192,26 @@ Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
   return s;
 }
 
+// Only where one was moved is the bone opened.
+Result<std::vector<MovedPiece>> pieces_of(record::Player& player, const scenario::Recipe& volume,
+                                          const std::optional<scenario::Case>& work) {
+  std::vector<MovedPiece> none;
+  if (!sim::moves_pieces(player)) return none;
+  scenario::Recipe recipe = volume;
+  recipe.source.clear();  // the recording itself was named
+  auto bone = workshop::bone_of(player, recipe, progress());
+  if (!bone) return bone.error();
+  std::optional<scenario::Lesson> lesson;
+  if (work) {
+    auto placed = workshop::placed_lesson(*work);
+    if (!placed) return placed.error();
+    lesson = std::move(*placed);
+  }
+  auto moved = moved_pieces_of(player, **bone, lesson ? &*lesson : nullptr);
+  if (!moved) return moved.error();
+  return std::move(moved->pieces);
+}
+
 // A recording: how long, of which bone, and what was to be done.
 Status run_recording(const Options& options) {
   auto opened = record::Player::open(options.volume.source);
@@ -212,6 +236,11 @@ Status run_recording(const Options& options) {
     fmt::print("case {}: {}", base::printable(work_case->name), scenario::task_text(*work_case));
   }
   fmt::print("{}", session_text(player));
+  const auto moved = pieces_of(player, options.volume, work_case);
+  if (moved)
+    for (const std::string& line : pieces_text(*moved)) fmt::print("  moved: {}\n", line);
+  else  // the rest is known all the same
+    fmt::print("  pieces were moved; how they lie is not known: {}\n", moved.error().text);
   for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", notice);
   if (!options.json) return fine();
   nlohmann::json out = {
@@ -224,6 +253,7 @@ Status run_recording(const Options& options) {
       {"notices", player.notices()},
       {"case", nullptr}};
   out.update(session_json(player));
+  out["pieces"] = moved ? nlohmann::json(pieces_json(*moved)) : nlohmann::json(nullptr);
   if (work_case) {
     nlohmann::json targets = nlohmann::json::array();
     for (const scenario::Target& target : work_case->targets)

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
+#include <string_view>
 
+#include "burr/base/printable.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/importing/materials.h"
 #include "burr/render/bone_scene.h"
@@ -16,10 +19,13 @@
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "burr/surgeon/path_check.h"
+#include "burr/surgeon/plane_cut.h"
 #include "burr/tick/flag_words.h"
 #include "burr/tick/mirror_plane.h"
+#include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
+#include "burr/workshop/spared.h"
 #include "burr/workshop/work_view.h"
 #include "commands/command.h"
 #include "commands/interrupt.h"
@@ -31,6 +37,7 @@
 #include "commands/second_options.h"
 #include "commands/tool_options.h"
 #include "commands/volume_words.h"
+#include "commands/work.h"
 
 namespace burr::app {
 namespace {
@@ -53,10 +60,58 @@ struct Options {
   int teeth = tool::Burr{}.teeth;
   bool guarded = false, heat = false, irrigated = false;
   bool realtime = false, embed = false, json = false, diamond = false, force = false;
+  bool burr_given = false, rpm_given = false, seconds_given = false;
+  std::optional<scenario::Case> work_case;  // if the volume is one
 };
+
+constexpr std::string_view kStepMotion = "step:";
+constexpr double kStepSeconds = 240;  // of a cut along a plane, if nobody says how long
+
+// A case says what is milled and, unless the options do, with which burr, where, and which way in.
+Status take_case(Options& options) {
+  if (!names_a_case(options.volume.source)) return fine();
+  auto work = scenario::read_case(options.volume.source);
+  if (!work) return work.error();
+  options.volume = workshop::recipe_of(*work, options.volume);
+  if (!options.burr_given) options.burr_mm = 2e3 * work->burr.radius;
+  if (!options.rpm_given) options.rpm = work->full_speed * 60 / (2 * std::numbers::pi);
+  options.diamond =
+      options.diamond || (!options.burr_given && work->burr.kind == tool::BurrKind::diamond);
+  if (options.tool.tool.empty() && !options.burr_given) options.tool.tool = work->tool;
+  if (options.at_mm.empty() && work->at)
+    options.at_mm = {1e3 * work->at->x(), 1e3 * work->at->y(), 1e3 * work->at->z()};
+  if (options.into.empty() && work->into)
+    options.into = {work->into->x(), work->into->y(), work->into->z()};
+  options.work_case = std::move(*work);
+  return fine();
+}
+
+// The cut along the plane of a step of the case.
+Result<device::HandPath> step_path(const Options& options, const volume::Bone& bone,
+                                   surgeon::WorkPlace& place) {
+  if (!options.work_case)
+    return error(
+        Trouble::usage,
+        fmt::format("--motion {}: only a case has steps; name a case in place of \"{}\"",
+                    base::printable(options.motion_name), base::printable(options.volume.source)));
+  const auto lesson = workshop::placed_lesson(*options.work_case);
+  if (!lesson) return lesson.error();
+  const auto plane = surgeon::plane_of(*lesson, options.motion_name.substr(kStepMotion.size()));
+  if (!plane) return plane.error();
+  const auto tool = named_tool(options.tool);
+  if (!tool) return tool.error();
+  const surgeon::Blade blade =
+      *tool ? surgeon::blade_of((*tool)->tool, (*tool)->cutter, (*tool)->lean)
+            : surgeon::round_blade(0.5e-3 * options.burr_mm);
+  auto path = surgeon::cut_along(bone, *plane, blade,
+                                 options.seconds_given ? options.seconds : kStepSeconds);
+  if (path) place = {path->points.front().world_from_tool.p, -plane->out};
+  return path;
+}
 
 Result<device::HandPath> hand_path(const Options& options, const volume::Bone& bone,
                                    surgeon::WorkPlace& place) {
+  if (options.motion_name.starts_with(kStepMotion)) return step_path(options, bone, place);
   std::optional<Vec3> at, into;
   if (!options.at_mm.empty())
     at = Vec3(options.at_mm[0], options.at_mm[1], options.at_mm[2]) * 1e-3;
@@ -183,7 +238,7 @@ void rest_at_end(device::HandPath& path) {
 
 struct Told {
   const std::vector<std::string>& doubts;
-  nlohmann::ordered_json pieces;  // that were moved
+  std::vector<MovedPiece> pieces;  // that were moved
 };
 
 void print(const Options& options, sim::Session& session, const Recording& recording,
@@ -224,7 +279,7 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   out["owed_mm3"] = 1e9 * outcome.ledger.debt;
   if (!options.move_pieces.empty()) {
     out["moved_loss_mm3"] = 1e9 * outcome.ledger.moved;
-    out["pieces"] = told.pieces;
+    out["pieces"] = pieces_json(told.pieces);
   }
   out["peak_force_N"] = outcome.peak_force;
   out["mean_force_N"] = outcome.mean_force;
@@ -250,10 +305,32 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   fmt::print("{}\n", json_line(out));
 }
 
-Status run(const Options& options) {
+// The volume, or the bone of the case; with its notices on stderr.
+Result<importing::Imported> open_volume(Options& options) {
+  if (const Status taken = take_case(options); !taken) return taken.error();
+  auto opened = workshop::open_bone(options.volume, progress());
+  if (!opened) return opened.error();
+  if (options.work_case) {
+    const Status fits = scenario::check_tissues(*options.work_case, opened->bone->tissues());
+    if (!fits) return fits.error();
+    workshop::fit_burr(options.burr_mm, opened->bone->grid().voxel, opened->summary.notices);
+  }
+  for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
+  return opened;
+}
+
+std::vector<MovedPiece> pieces_of(const Options& options, const edit::PieceStore& store,
+                                  const volume::Bone& bone) {
+  if (!options.work_case || options.move_pieces.empty()) return moved_pieces(store, bone);
+  const auto lesson = workshop::placed_lesson(*options.work_case);
+  return moved_pieces(store, bone, lesson ? &*lesson : nullptr);
+}
+
+Status run(Options options) {
   if (options.path_csv.empty() == options.motion_name.empty())
     return error(Trouble::usage,
-                 fmt::format("give either --path FILE.csv or --motion NAME (one of {})",
+                 fmt::format("give either --path FILE.csv or --motion NAME (one of {}; with a case "
+                             "also step:ID)",
                              fmt::join(surgeon::motion_names(), ", ")));
   std::vector<sim::PieceOrder> orders;
   for (const std::string& text : options.move_pieces) {
@@ -267,14 +344,14 @@ Status run(const Options& options) {
       {{"--record", options.record, {".mcap"}}, {"--picture", options.picture, {".png"}}},
       options.force);
   if (!possible) return possible;
-  auto opened = workshop::open_bone(options.volume, progress());
+  auto opened = open_volume(options);
   if (!opened) return opened.error();
-  for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
 
   surgeon::WorkPlace place;
   auto path = hand_path(options, *opened->bone, place);
   if (!path) return path.error();
-  const double seconds = options.path_csv.empty() ? options.seconds : path->duration();
+  const bool own_motion = options.path_csv.empty() && !options.motion_name.starts_with(kStepMotion);
+  const double seconds = own_motion ? options.seconds : path->duration();
   std::vector<std::string> doubts;
   if (!options.path_csv.empty())
     doubts = surgeon::doubts(*path, *opened->bone, 0.5e-3 * options.burr_mm, options.path_csv);
@@ -326,9 +403,13 @@ Status run(const Options& options) {
   Recording recording;
   if (!options.record.empty()) {
     recording.remember_scan_in(users_scan_list());
-    Status started = recording.start(session, options.record, options.volume, opened->summary,
-                                     options.path_csv.empty() ? options.motion_name : "hand path",
-                                     options.embed);
+    Status started = recording.start(
+        session, options.record, options.volume, opened->summary,
+        options.path_csv.empty() ? options.motion_name : "hand path", options.embed,
+        options.work_case
+            ? std::optional(workshop::to_spare(session.bone_tissues(), options.work_case->spare))
+            : std::nullopt,
+        options.work_case);
     if (!started) return started;
   }
   session.run(seconds, progress());
@@ -339,7 +420,7 @@ Status run(const Options& options) {
     Status drawn = draw(options, place, session);
     if (!drawn) return drawn;
   }
-  print(options, session, recording, {doubts, pieces_json(store, session.bone())});
+  print(options, session, recording, {doubts, pieces_of(options, store, session.bone())});
   if (!put) return put;
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
@@ -367,7 +448,9 @@ void add_motion(CLI::App* command, const std::shared_ptr<Options>& options) {
   command->add_option("--path", options->path_csv,
                       "CSV file t,x,y,z[,qw,qx,qy,qz][,spindle] of the hand (s, m; or x_mm ...)");
   command->add_option("--motion", options->motion_name,
-                      fmt::format("built-in: {}", fmt::join(surgeon::motion_names(), ", ")));
+                      fmt::format("built-in: {}; with a case also step:ID: along the plane of this "
+                                  "step, by the burr or a saw",
+                                  fmt::join(surgeon::motion_names(), ", ")));
   command
       ->add_option("--at", options->at_mm,
                    "X,Y,Z [mm, LPS]: where the motion begins (default: topmost bone)")
@@ -383,18 +466,23 @@ void add_motion(CLI::App* command, const std::shared_ptr<Options>& options) {
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("mill", "mill a bone with a simulated hand");
-  command->add_option("volume", options->volume.source, "file, DICOM folder, or phantom:NAME")
+  command
+      ->add_option("volume", options->volume.source,
+                   "file, DICOM folder, phantom:NAME, or a case (jaw, ... or a .toml file)")
       ->required();
   add_motion(command, options);
-  command->add_option("--burr-mm", options->burr_mm, "diameter of the burr, 0.6 to 7")
-      ->capture_default_str();
+  auto* burr = command
+                   ->add_option("--burr-mm", options->burr_mm,
+                                "diameter of the burr, 0.6 to 7 (with a case: that of the case)")
+                   ->capture_default_str();
   add_tool_options(*command, options->tool);
   static_cast<void>(add_second_tool_option(*command, options->tool));
   add_second_options(*command, options->second);
   command->add_flag("--diamond", options->diamond, "diamond burr: a quarter of the removal rate");
-  command->add_option("--rpm", options->rpm, "speed of the spindle; below 0 it turns backwards")
-      ->check(CLI::Range(-400000.0, 400000.0))
-      ->capture_default_str();
+  auto* rpm =
+      command->add_option("--rpm", options->rpm, "speed of the spindle; below 0 it turns backwards")
+          ->check(CLI::Range(-400000.0, 400000.0))
+          ->capture_default_str();
   command
       ->add_option("--torque-mnm", options->torque_mnm,
                    "largest torque of the spindle [mN m]; 0: unlimited")
@@ -411,9 +499,11 @@ void add(CLI::App& app, Todo& todo) {
       ->capture_default_str();
   command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "duration of a built-in motion")
-      ->check(CLI::Range(1.0, 36'000.0))
-      ->capture_default_str();
+  auto* seconds = command
+                      ->add_option("--seconds", options->seconds,
+                                   "duration of a built-in motion (of step:ID: 240)")
+                      ->check(CLI::Range(1.0, 36'000.0))
+                      ->capture_default_str();
   command
       ->add_option("--stiffness", options->stiffness,
                    "stiffness of the spring to the hand [N/m], limited by the device")
@@ -463,7 +553,10 @@ void add(CLI::App& app, Todo& todo) {
   add_results(command, options);
   add_picture_size(*command, options->size);
   add_volume_options(*command, options->volume);
-  command->callback([options, touch, &todo] {
+  command->callback([options, touch, burr, rpm, seconds, &todo] {
+    options->burr_given = !burr->empty();
+    options->rpm_given = !rpm->empty();
+    options->seconds_given = !seconds->empty();
     // two tools feel each other where all their parts do
     if (!options->tool.second.empty() && touch->empty()) options->touch = "shaft";
     todo.work = [options] { return run(*options); };

@@ -12,13 +12,12 @@
 #include <utility>
 
 #include "burr/math/turn.h"
-#include "burr/metrics/piece_fit.h"
-#include "burr/workshop/piece_plan.h"
 
 namespace burr::app {
 namespace {
 
 using math::Vec3;
+constexpr double kDegree = std::numbers::pi / 180;
 
 bool numbers(std::string_view text, Vec3& to) {
   const char *at = text.data(), *end = at + text.size();
@@ -55,27 +54,53 @@ Result<sim::PieceOrder> piece_order(const std::string& text) {
                  fmt::format("--move-piece {}: give X,Y,Z:DX,DY,DZ, or with a turn "
                              "X,Y,Z:DX,DY,DZ:AX,AY,AZ (mm, mm, degrees), for example 10,0,5:0,0,5",
                              text));
-  constexpr double kRad = std::numbers::pi / 180;
-  return sim::PieceOrder{parts[0] * 1e-3, parts[1] * 1e-3, parts[2] * kRad};
+  return sim::PieceOrder{parts[0] * 1e-3, parts[1] * 1e-3, parts[2] * kDegree};
 }
 
-nlohmann::ordered_json pieces_json(const edit::PieceStore& store, const volume::Bone& bone,
-                                   const scenario::Lesson* lesson) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+std::vector<MovedPiece> moved_pieces(const edit::PieceStore& store, const volume::Bone& bone,
+                                     const scenario::Lesson* lesson) {
+  std::vector<MovedPiece> all;
   const std::vector<edit::PieceStore::Moved> moved = store.moved(bone);
   if (moved.empty()) return all;
   const std::unique_ptr<volume::Bone> rest = store.without_moved(bone);
   for (const edit::PieceStore::Moved& one : moved) {
-    const Vec3 by(one.move.by[0], one.move.by[1], one.move.by[2]);
-    const double turned = math::rotation_vector(one.now.q).norm() * 180 / std::numbers::pi;
-    const metrics::PieceFit fit = metrics::piece_fit(*one.piece, *rest);
+    MovedPiece& piece = all.emplace_back();
+    piece.number = one.number;
+    piece.volume = one.volume;
+    piece.centre = one.now * one.centre;
+    piece.by = Vec3(one.move.by[0], one.move.by[1], one.move.by[2]);
+    piece.turned = math::rotation_vector(one.now.q).norm();
+    piece.fit = metrics::piece_fit(*one.piece, *rest);
+    const scenario::PlannedPiece* plan =
+        lesson != nullptr ? workshop::plan_of(*lesson, *one.came_free) : nullptr;
+    if (plan != nullptr)
+      piece.plan = {plan->title.in("en"), plan->by, workshop::off_plan(*plan, piece.by, one.now.q)};
+  }
+  return all;
+}
+
+Result<MovedIn> moved_pieces_of(record::Player& player, volume::Bone& bone,
+                                const scenario::Lesson* lesson, double at_s) {
+  auto store = sim::moved_in(player, bone, at_s);
+  if (!store) return store.error();
+  const Status there = player.bone_at(at_s < 0 ? player.seconds() : at_s, bone);
+  if (!there) return there.error();
+  MovedIn out{std::move(*store), {}};
+  out.pieces = moved_pieces(out.store, bone, lesson);
+  return out;
+}
+
+nlohmann::ordered_json pieces_json(const std::vector<MovedPiece>& pieces) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const MovedPiece& one : pieces) {
+    const metrics::PieceFit& fit = one.fit;
     nlohmann::ordered_json row;
     row["piece"] = one.number + 1;
     row["volume_mm3"] = 1e9 * one.volume;
-    row["centre_mm"] = mm(one.now * one.centre);
-    row["moved_mm"] = mm(by);
-    row["distance_mm"] = 1e3 * by.norm();
-    row["turned_deg"] = turned;
+    row["centre_mm"] = mm(one.centre);
+    row["moved_mm"] = mm(one.by);
+    row["distance_mm"] = 1e3 * one.by.norm();
+    row["turned_deg"] = one.turned / kDegree;
     row["facing_mm2"] = 1e6 * fit.facing;
     row["contact_mm2"] = 1e6 * fit.contact;
     if (fit.facing > 0) {
@@ -87,39 +112,32 @@ nlohmann::ordered_json pieces_json(const edit::PieceStore& store, const volume::
       row["step_mm"] = 1e3 * fit.step;
       row["step_most_mm"] = 1e3 * fit.step_most;
     }
-    const scenario::PlannedPiece* plan =
-        lesson != nullptr ? workshop::plan_of(*lesson, *one.came_free) : nullptr;
-    if (plan != nullptr) {
-      const workshop::OffPlan off = workshop::off_plan(*plan, by, one.now.q);
-      row["plan"] = {{"title", plan->title.in("en")},
-                     {"planned_mm", mm(plan->by)},
-                     {"way_mm", 1e3 * off.way},
-                     {"off_mm", 1e3 * off.off},
-                     {"off_deg", off.turned_off * 180 / std::numbers::pi}};
-    }
+    if (one.plan)
+      row["plan"] = {{"title", one.plan->title},
+                     {"planned_mm", mm(one.plan->by)},
+                     {"way_mm", 1e3 * one.plan->off.way},
+                     {"off_mm", 1e3 * one.plan->off.off},
+                     {"off_deg", one.plan->off.turned_off / kDegree}};
     all.push_back(std::move(row));
   }
   return all;
 }
 
-std::vector<std::string> pieces_text(const nlohmann::ordered_json& pieces) {
+std::vector<std::string> pieces_text(const std::vector<MovedPiece>& pieces) {
   std::vector<std::string> lines;
-  for (const auto& row : pieces) {
+  for (const MovedPiece& one : pieces) {
+    const metrics::PieceFit& fit = one.fit;
     std::string line =
         fmt::format("piece {} of {:.1f} mm3: moved {:.2f} mm, turned {:.2f} degrees",
-                    row["piece"].get<int>(), row["volume_mm3"].get<double>(),
-                    row["distance_mm"].get<double>(), row["turned_deg"].get<double>());
-    if (row.contains("gap_mm"))
-      line += fmt::format("; gap {:.2f} mm ({:.2f} to {:.2f}), contact {:.1f} mm2",
-                          row["gap_mm"].get<double>(), row["gap_least_mm"].get<double>(),
-                          row["gap_most_mm"].get<double>(), row["contact_mm2"].get<double>());
-    if (row.contains("step_mm"))
-      line += fmt::format("; step {:.2f} mm (most {:.2f})", row["step_mm"].get<double>(),
-                          row["step_most_mm"].get<double>());
-    if (row.contains("plan"))
-      line +=
-          fmt::format("; {:.2f} mm and {:.2f} degrees off the plan",
-                      row["plan"]["off_mm"].get<double>(), row["plan"]["off_deg"].get<double>());
+                    one.number + 1, 1e9 * one.volume, 1e3 * one.by.norm(), one.turned / kDegree);
+    if (fit.facing > 0)
+      line += fmt::format("; gap {:.2f} mm ({:.2f} to {:.2f}), contact {:.1f} mm2", 1e3 * fit.gap,
+                          1e3 * fit.gap_least, 1e3 * fit.gap_most, 1e6 * fit.contact);
+    if (fit.has_step)
+      line += fmt::format("; step {:.2f} mm (most {:.2f})", 1e3 * fit.step, 1e3 * fit.step_most);
+    if (one.plan)
+      line += fmt::format("; {:.2f} mm and {:.2f} degrees off the plan", 1e3 * one.plan->off.off,
+                          one.plan->off.turned_off / kDegree);
     lines.push_back(std::move(line));
   }
   return lines;

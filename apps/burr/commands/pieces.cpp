@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "burr/record/player.h"
-#include "burr/scenario/open_lesson.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/volume/pieces.h"
@@ -36,28 +35,20 @@ Status run(const Options& options) {
   if (!player) return player.error();
   auto bone = workshop::bone_of(**player, options.volume, progress());
   if (!bone) return bone.error();
-  const std::unique_ptr<volume::Bone> now = volume::copy_of(**bone);
-  const auto store = sim::moved_in(**player, *now, options.at_s);
-  if (!store) return store.error();
-  const double at_s = options.at_s < 0 ? (*player)->seconds() : options.at_s;
-  const Status there = (*player)->bone_at(at_s, *now);
-  if (!there) return there.error();
-  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
-
   std::optional<scenario::Lesson> lesson;
   if ((*player)->info().work_case) {
     const auto work = record::case_of(*(*player)->info().work_case);
     if (!work) return work.error();
-    auto read = scenario::lesson_of(*work);
-    if (!read) return read.error();
-    auto placed =
-        scenario::place(std::move(*read), workshop::landmarks_of(*work), work->name + ".toml");
+    auto placed = workshop::placed_lesson(*work);
     if (!placed) return placed.error();
     lesson = std::move(*placed);
   }
-  const nlohmann::ordered_json pieces = pieces_json(*store, *now, lesson ? &*lesson : nullptr);
+  const std::unique_ptr<volume::Bone> now = volume::copy_of(**bone);
+  const auto moved = moved_pieces_of(**player, *now, lesson ? &*lesson : nullptr, options.at_s);
+  if (!moved) return moved.error();
+  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
   const volume::PieceFinder finder(std::as_const(*now));
-  const std::size_t free = store->list(*now).size();
+  const std::size_t free = moved->store.list(*now).size();
   std::size_t splinters = 0;
   for (std::size_t n = 1; n < finder.pieces().size(); ++n)
     if (edit::is_dust(*now, finder, n)) ++splinters;
@@ -65,13 +56,14 @@ Status run(const Options& options) {
     nlohmann::ordered_json out;
     out["free"] = free;
     out["splinters"] = splinters;
-    out["moved"] = pieces;
+    out["moved"] = pieces_json(moved->pieces);
     fmt::print("{}\n", json_line(out));
     return fine();
   }
   fmt::print("{} free, {} of them moved; {} splinters\n",
-             free == 1 ? "1 piece" : fmt::format("{} pieces", free), pieces.size(), splinters);
-  for (const std::string& line : pieces_text(pieces)) fmt::print("{}\n", line);
+             free == 1 ? "1 piece" : fmt::format("{} pieces", free), moved->pieces.size(),
+             splinters);
+  for (const std::string& line : pieces_text(moved->pieces)) fmt::print("{}\n", line);
   return fine();
 }
 

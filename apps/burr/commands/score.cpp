@@ -23,6 +23,7 @@
 #include "commands/bone_option.h"
 #include "commands/command.h"
 #include "commands/json_line.h"
+#include "commands/piece_words.h"
 #include "commands/score_words.h"
 #include "commands/volume_words.h"
 #include "report/scored.h"
@@ -94,6 +95,9 @@ Status run_score(const Options& options) {
       fmt::print("{}\n", gates);
     fmt::print("{}: {}; {:.0f} % of the bone that the case says to remove is gone\n",
                score.unfinished ? "unfinished" : "finished", score.ending, 100 * score.worked);
+    if (!made->pieces.empty())
+      fmt::print("moved, which earns nothing; the items look at the bone as if it had not been:\n");
+    for (const std::string& line : pieces_text(made->pieces)) fmt::print("  {}\n", line);
   }
   const auto changed = rubric_changed(player, rubric);
   if (changed.value_or(false))
@@ -106,6 +110,7 @@ Status run_score(const Options& options) {
     out["rubric_hash"] = record::hex(rubric.text_hash);
     out["rubric_changed"] =
         changed ? nlohmann::ordered_json(*changed) : nlohmann::ordered_json(nullptr);
+    out["pieces"] = pieces_json(made->pieces);
     fmt::print("{}\n", json_line(out));
   }
   return fine();

@@ -15,7 +15,6 @@
 #include "burr/record/course.h"
 #include "burr/record/view.h"
 #include "burr/scenario/case.h"
-#include "burr/scenario/open_lesson.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/surgeon.h"
 #include "burr/tick/flag_words.h"
@@ -188,10 +187,7 @@ Status run(const Options& options) {
   auto work = scenario::read_case(options.work_case);
   if (!work) return work.error();
   if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken;
-  auto read = scenario::lesson_of(*work);
-  if (!read) return read.error();
-  const auto lesson =
-      scenario::place(std::move(*read), workshop::landmarks_of(*work), work->name + ".toml");
+  const auto lesson = workshop::placed_lesson(*work);
   if (!lesson) return lesson.error();
   auto prepared = workshop::prepare(*work, progress(), {}, options.volume);
   if (!prepared) return prepared.error();

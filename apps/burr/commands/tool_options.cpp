@@ -1,6 +1,7 @@
 #include "commands/tool_options.h"
 
-#include "burr/scenario/rack.h"
+#include <utility>
+
 #include "burr/tool/shaped_tool.h"
 #include "burr/workshop/mesh_shape.h"
 
@@ -33,6 +34,15 @@ Status take_tool(const ToolOptions& options, tick::ServoSettings& settings) {
   settings.tools = {{tool->name, tool->tool, tool->cutter}};
   settings.tool = 0;
   return fine();
+}
+
+Result<std::optional<scenario::RackTool>> named_tool(const ToolOptions& options) {
+  if (options.tool.empty()) return std::optional<scenario::RackTool>();
+  const auto rack = rack_of(options);
+  if (!rack) return rack.error();
+  auto tool = rack->get(options.tool);
+  if (!tool) return tool.error();
+  return std::optional<scenario::RackTool>(std::move(*tool));
 }
 
 CLI::Option* add_second_tool_option(CLI::App& command, ToolOptions& options) {

@@ -25,6 +25,9 @@ void add_tool_options(CLI::App& command, ToolOptions& options);
 // unknown name, with those that there are; a mistake in the list; a list without a name.
 [[nodiscard]] Status take_tool(const ToolOptions& options, tick::ServoSettings& settings);
 
+// The tool that was named, as the rack has it; none: the round burr. Error: as take_tool().
+[[nodiscard]] Result<std::optional<scenario::RackTool>> named_tool(const ToolOptions& options);
+
 // --second-tool
 CLI::Option* add_second_tool_option(CLI::App& command, ToolOptions& options);
 // none: a suction tube. Error: as take_tool().

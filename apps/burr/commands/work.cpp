@@ -17,14 +17,6 @@
 namespace burr::app {
 namespace {
 
-bool names_a_case(const std::string& path) {
-  const auto known = scenario::built_in_cases();
-  const bool built_in = std::find(known.begin(), known.end(), path) != known.end();
-  std::error_code nobody_asks;
-  return (built_in && !std::filesystem::exists(path, nobody_asks)) ||
-         std::filesystem::path(path).extension() == ".toml";
-}
-
 // a phantom's bare name; a file of that name comes first
 bool bare_name(const std::string& path) {
   std::error_code nobody_asks;
@@ -33,6 +25,14 @@ bool bare_name(const std::string& path) {
 }
 
 }  // namespace
+
+bool names_a_case(const std::string& path) {
+  const auto known = scenario::built_in_cases();
+  const bool built_in = std::find(known.begin(), known.end(), path) != known.end();
+  std::error_code nobody_asks;
+  return (built_in && !std::filesystem::exists(path, nobody_asks)) ||
+         std::filesystem::path(path).extension() == ".toml";
+}
 
 bool names_a_scan(const WorkOptions& options) {
   const std::string& path = options.volume.source;

@@ -59,6 +59,9 @@ struct WorkOptions {
 // The same with a case that was read already.
 void take_case(WorkOptions& options, const scenario::Case& work);
 
+// True: a built-in case (a file of that name comes first), or a .toml file.
+[[nodiscard]] bool names_a_case(const std::string& source);
+
 // Call it before take_case(). True: not a built-in case, a phantom or a .toml file.
 [[nodiscard]] bool names_a_scan(const WorkOptions& options);
 

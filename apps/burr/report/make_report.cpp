@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <numbers>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -333,6 +334,24 @@ std::vector<TextPair> figures_of(const Scored& scored) {
   return rows;
 }
 
+// whose: "A"; empty: there is one session only.
+std::vector<TextPair> pieces_of(const Scored& scored, const std::string& whose) {
+  std::vector<TextPair> rows;
+  for (const MovedPiece& piece : scored.pieces) {
+    constexpr double kDegree = std::numbers::pi / 180;
+    std::string text = say(Word::report_piece_moved, 1e9 * piece.volume, 1e3 * piece.by.norm(),
+                           piece.turned / kDegree);
+    if (piece.fit.facing > 0) text += say(Word::report_piece_gap, 1e3 * piece.fit.gap);
+    if (piece.fit.has_step) text += say(Word::report_piece_step, 1e3 * piece.fit.step);
+    if (piece.plan)
+      text += say(Word::report_piece_plan, 1e3 * piece.plan->off.off,
+                  piece.plan->off.turned_off / kDegree);
+    const std::string name = say(Word::report_piece, piece.number + 1);
+    rows.emplace_back(whose.empty() ? name : whose + ", " + name, text);
+  }
+  return rows;
+}
+
 // What both kinds of page have.
 Report common(const Scored& scored, const ReportSettings& settings) {
   Report report;
@@ -347,6 +366,7 @@ Report common(const Scored& scored, const ReportSettings& settings) {
   report.spots_legend = spots_legend();
   report.lines.push_back(time_line_of(scored));
   report.figures = figures_of(scored);
+  report.pieces = pieces_of(scored, "");
   if (!scored.judged.lesson.approach.empty())
     report.towards = scored.judged.lesson.approach.front();
   report.small = small_of(scored);
@@ -419,6 +439,8 @@ Result<Report> comparison(Scored& a, Scored& b, const ReportSettings& settings,
   report.lines.back().whose = "B: " + second;
   report.head = joined(std::move(report.head), head_of(b));
   report.figures = joined(std::move(report.figures), figures_of(b));
+  report.pieces = pieces_of(a, "A");
+  for (TextPair& row : pieces_of(b, "B")) report.pieces.push_back(std::move(row));
   report.head.insert(report.head.begin(), {{"A", first}, {"B", second}});
   report.hashes = joined(hashes_of(a, file_hash(a.judged.player->path())),
                          hashes_of(b, file_hash(b.judged.player->path())));

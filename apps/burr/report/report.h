@@ -131,6 +131,7 @@ struct Report {
   Legend sides_legend, spots_legend;
   std::vector<ReportSides> sides;
   std::vector<TextPair> figures;  // that earn nothing
+  std::vector<TextPair> pieces;   // of bone that were moved; they earn nothing either
   std::vector<ReportLine> lines;
   std::vector<std::string> small;            // sentences
   math::Vec3 towards = math::Vec3::UnitZ();  // from the bone to the surgeon; unit

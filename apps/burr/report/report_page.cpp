@@ -282,6 +282,14 @@ std::string figures_html(const Report& report) {
                      markup_text(word(Word::report_figures)), pairs_html(report.figures));
 }
 
+std::string pieces_html(const Report& report) {
+  if (report.pieces.empty()) return {};
+  return fmt::format(
+      "<div class=\"whole\" id=\"pieces\"><h2>{}</h2>\n{}<p class=\"soft small\">{}</p></div>\n",
+      markup_text(word(Word::report_pieces)), pairs_html(report.pieces),
+      markup_text(word(Word::report_pieces_back)));
+}
+
 std::string small_html(const Report& report) {
   std::string html = fmt::format("<h2>{}</h2>\n<div class=\"small soft\" id=\"small\">\n",
                                  markup_text(word(Word::report_small)));
@@ -305,8 +313,8 @@ std::string page_of(const Report& report) {
              "</style></head>\n<body>\n",
              markup_text(report.language), markup_text(report.title), kStyle) +
          head_html(report) + safety_html(report) + totals_html(report) + next_html(report) +
-         items_html(report) + sides_html(report) + lines_html(report) + figures_html(report) +
-         small_html(report) + "</body></html>\n";
+         items_html(report) + sides_html(report) + lines_html(report) + pieces_html(report) +
+         figures_html(report) + small_html(report) + "</body></html>\n";
 }
 
 }  // namespace burr::app

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "burr/base/printable.h"
-#include "burr/scenario/open_lesson.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recording.h"
@@ -42,10 +41,7 @@ Status rubric_fits(const scenario::Case& work) {
 }
 
 Result<scenario::Lesson> lesson_for(const scenario::Case& work, const scoring::Rubric& rubric) {
-  auto read = scenario::lesson_of(work);
-  if (!read) return read.error();
-  auto lesson =
-      scenario::place(std::move(*read), workshop::landmarks_of(work), work.name + ".toml");
+  auto lesson = workshop::placed_lesson(work);
   if (!lesson) return lesson.error();
   if (const Status fits = scoring::check(rubric, *lesson); !fits) return fits.error();
   return lesson;
@@ -69,10 +65,15 @@ Result<Scored> scored(Judged judged, const scenario::Recipe& volume, Progress& p
   auto before = workshop::bone_of(player, volume, progress);
   if (!before) return before.error();
   auto after = volume::copy_of(**before);
-  if (const Status there = player.bone_at(player.seconds(), *after); !there) return there.error();
-  auto score = scoring::score(judged.rubric, judged.lesson, **before, *after, &player, progress);
+  auto moved = moved_pieces_of(player, *after, &judged.lesson);
+  if (!moved) return moved.error();
+  std::unique_ptr<volume::Bone> put_back;
+  if (!moved->pieces.empty()) put_back = moved->store.with_pieces_back(*after);
+  auto score = scoring::score(judged.rubric, judged.lesson, **before, put_back ? *put_back : *after,
+                              &player, progress);
   if (!score) return score.error();
-  return Scored{std::move(judged), std::move(*before), std::move(after), std::move(*score)};
+  return Scored{std::move(judged), std::move(*before), std::move(after), std::move(*score),
+                std::move(moved->pieces)};
 }
 
 }  // namespace burr::app

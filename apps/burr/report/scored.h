@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
@@ -16,6 +17,7 @@
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"
 #include "burr/volume/bone.h"
+#include "commands/piece_words.h"
 
 namespace burr::app {
 
@@ -37,10 +39,13 @@ struct Judged {
 // rubric: a name or a file; empty: the built-in one of the recording's case.
 [[nodiscard]] Result<Judged> judged_by(const std::string& recording, const std::string& rubric);
 
+// Pieces that were moved (docs/pieces.md) are facts beside the items. The items look at the bone with
+// these pieces put back where they came free: they judge the cut, not the move.
 struct Scored {
   Judged judged;
-  std::unique_ptr<volume::Bone> before, after;
+  std::unique_ptr<volume::Bone> before, after;  // after: as it lies
   scoring::Score score;
+  std::vector<MovedPiece> pieces = {};
 };
 // volume: where the bone is, if burr does not find it.
 [[nodiscard]] Result<Scored> scored(Judged judged, const scenario::Recipe& volume,

@@ -512,7 +512,17 @@ std::vector<PieceStore::Moved> PieceStore::moved(const Bone& bone) const {
 }
 
 std::unique_ptr<Bone> PieceStore::without_moved(const Bone& bone) const {
+  return taken_out(bone, false);
+}
+
+std::unique_ptr<Bone> PieceStore::with_pieces_back(const Bone& bone) const {
+  return taken_out(bone, true);
+}
+
+// back: each is put where it came free.
+std::unique_ptr<Bone> PieceStore::taken_out(const Bone& bone, bool back) const {
   Work work(bone);
+  std::vector<const Kept*> out_of_place;
   // the newest first: what lay under it may be a piece, too
   for (std::size_t n = kept_.size(); n-- > 0;) {
     const Place* const place = place_of(bone, *kept_[n]);
@@ -523,6 +533,18 @@ std::unique_ptr<Bone> PieceStore::without_moved(const Bone& bone) const {
         if (print.put[v] == 0) continue;
         brick.field.voxel[v] = print.under[v];
         brick.tissue[v] = print.under_tissue[v];
+      }
+    }
+    out_of_place.push_back(kept_[n].get());
+  }
+  for (const Kept* const kept : out_of_place) {
+    if (!back) break;
+    for (const Print& print : kept->places.front()->prints) {
+      KeptBrick& brick = work.at(print.brick);
+      for (int v = 0; v < kBrickVoxels; ++v) {
+        if (print.put[v] <= brick.field.voxel[v]) continue;
+        brick.field.voxel[v] = print.put[v];
+        brick.tissue[v] = print.tissue[v];
       }
     }
   }

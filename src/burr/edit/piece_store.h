@@ -83,6 +83,8 @@ class PieceStore {
   [[nodiscard]] std::vector<Moved> moved(const volume::Bone& bone) const;
   // The bone without the pieces that were moved.
   [[nodiscard]] std::unique_ptr<volume::Bone> without_moved(const volume::Bone& bone) const;
+  // The bone as if no piece had been moved: each lies again where it came free.
+  [[nodiscard]] std::unique_ptr<volume::Bone> with_pieces_back(const volume::Bone& bone) const;
 
   [[nodiscard]] std::size_t size() const { return kept_.size(); }
 
@@ -90,6 +92,7 @@ class PieceStore {
   struct Kept;
   struct Place;
   [[nodiscard]] const Place* place_of(const volume::Bone& bone, const Kept& kept) const;
+  [[nodiscard]] std::unique_ptr<volume::Bone> taken_out(const volume::Bone& bone, bool back) const;
   [[nodiscard]] std::shared_ptr<Kept> take(const volume::Bone& bone,
                                            const volume::PieceFinder& finder,
                                            std::size_t piece) const;

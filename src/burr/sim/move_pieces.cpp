@@ -70,6 +70,14 @@ Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store, const P
   return error(Trouble::internal, "the piece was not put down in time");
 }
 
+bool moves_pieces(record::Player& player) {
+  record::StepCursor steps = player.steps();
+  for (record::Step step; steps.next(step);)
+    for (const tick::Command& command : step.commands)
+      if (command.kind == tick::CommandKind::move_piece) return true;
+  return false;
+}
+
 Result<edit::PieceStore> moved_in(record::Player& player, volume::Bone& bone, double until) {
   edit::PieceStore store;
   record::StepCursor steps = player.steps();

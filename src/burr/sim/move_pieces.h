@@ -40,6 +40,9 @@ struct PieceMoved {
 [[nodiscard]] Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store,
                                             const PieceOrder& order, Progress& progress);
 
+// True: the recording has a command that moves a piece. Reads all commands.
+[[nodiscard]] bool moves_pieces(record::Player& player);
+
 // The pieces that were moved in a recording, without simulating it, up to `until` [s]; below 0: to
 // its end. bone: as it was opened; afterwards it has a state of some moment. What the servo refused
 // is left out. Error: as Player::bone_at().

@@ -32,7 +32,6 @@ bool same(const volume::Piece& a, const volume::Piece& b) {
 
 PieceMover::PieceMover(Session& session)
     : session_(session), finder_(session.bone()), changed_(session.bone().add_watcher()) {
-  known_ = finder_.pieces();
   seen_ = seen_before_ = session_.writes();
   thread_ = std::thread([this] { run(); });
 }
@@ -47,6 +46,9 @@ PieceMover::~PieceMover() {
 }
 
 void PieceMover::run() {
+  // Reads the whole bone once, here and not where the page opens. What is in pieces already is no news.
+  while (finder_.update() > 0) std::this_thread::yield();
+  known_ = finder_.pieces();
   for (;;) {
     std::optional<edit::PieceMove> move;
     bool list = false;

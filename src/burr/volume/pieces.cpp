@@ -75,16 +75,16 @@ struct PieceFinder::Local {
   std::array<std::array<std::uint8_t, kFace>, 6> face{};  // 2 axis + (1: high end)
 };
 
-PieceFinder::PieceFinder(Bone& bone) : PieceFinder(std::as_const(bone)) {
-  changed_ = &bone.add_watcher();
-}
-
-PieceFinder::PieceFinder(const Bone& bone)
+PieceFinder::PieceFinder(const Bone& bone, std::uint8_t unread)
     : bone_(bone),
-      again_(static_cast<std::size_t>(bone.brick_count())),
+      again_(static_cast<std::size_t>(bone.brick_count()), unread),
       kind_(again_.size(), kAir),
       local_(again_.size()),
-      first_(again_.size()) {
+      first_(again_.size()) {}
+
+PieceFinder::PieceFinder(Bone& bone) : PieceFinder(bone, 1) { changed_ = &bone.add_watcher(); }
+
+PieceFinder::PieceFinder(const Bone& bone) : PieceFinder(bone, 0) {
   BrickField field;
   for (BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {
     const Field* const at = bone.brick_field(brick);

@@ -35,7 +35,7 @@ struct Piece {
 
 class PieceFinder {
  public:
-  // Registers as a watcher of the bone: before the session.
+  // Registers as a watcher of the bone: before the session. The first update() reads the bone.
   explicit PieceFinder(Bone& bone);
   // Looks at the bone as it is now. For a bone at rest.
   explicit PieceFinder(const Bone& bone);
@@ -56,6 +56,8 @@ class PieceFinder {
   void label(BrickIndex brick, std::array<std::int32_t, kBrickVoxels>& out) const;
 
  private:
+  PieceFinder(const Bone& bone, std::uint8_t unread);  // unread 1: all bricks are
+
   static constexpr int kMost = 255;  // pieces in a brick
   struct Local;                      // the pieces in one mixed brick
 

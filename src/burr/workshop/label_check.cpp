@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "burr/base/printable.h"
 #include "burr/phantom/phantoms.h"
+#include "burr/scenario/open_lesson.h"
 
 namespace burr::workshop {
 namespace {
@@ -332,6 +334,12 @@ std::vector<scenario::Landmark> landmarks_of(const scenario::Case& work) {
   for (const phantom::Landmark& one : phantom::landmarks(work.phantom))
     all.push_back({one.name, {}, one.points, one.normal, 0});
   return all;
+}
+
+Result<scenario::Lesson> placed_lesson(const scenario::Case& work) {
+  auto read = scenario::lesson_of(work);
+  if (!read) return read.error();
+  return scenario::place(std::move(*read), landmarks_of(work), work.name + ".toml");
 }
 
 }  // namespace burr::workshop

@@ -66,4 +66,7 @@ struct LabelFinding {
 // The landmarks of the bone that a case is about: those of a formula; none for a scan.
 [[nodiscard]] std::vector<scenario::Landmark> landmarks_of(const scenario::Case& work);
 
+// The lesson of a case, with the landmarks of its bone. Error: as scenario::lesson_of() and place().
+[[nodiscard]] Result<scenario::Lesson> placed_lesson(const scenario::Case& work);
+
 }  // namespace burr::workshop

@@ -212,10 +212,14 @@ class Mill {
   void draw_rack_pictures();
   void draw_rack_panel();
   void look_at_pieces();
+  void carry_piece();
+  [[nodiscard]] bool other_hand_carries() const;
   void draw_pieces_panel();
   bool piece_key(const SDL_Keysym& pressed);
   void drag_piece(const SDL_MouseMotionEvent& motion);
   [[nodiscard]] bool has_piece() const { return pieces_ && pieces_->taken(); }
+  // The axes of the hand stay as they are meanwhile: a turned view must not turn the piece.
+  [[nodiscard]] bool carries_piece() const { return pieces_ && pieces_->carried(); }
   [[nodiscard]] std::optional<HudState::Nearest> nearest_spared();
 
   // ---- mill_diary.cpp
@@ -296,8 +300,9 @@ class Mill {
   Leaf leaf_ = Leaf::task;  // of the panel beside the tools
   bool task_read_ = false;  // bone has been removed
   Steps steps_;
-  std::optional<StepWatch> watch_;   // made by begin(), before the session starts
-  std::optional<PieceMode> pieces_;  // likewise
+  std::optional<StepWatch> watch_;             // made by begin(), before the session starts
+  std::optional<PieceMode> pieces_;            // likewise
+  std::optional<tick::ToolMode> mode_before_;  // of the tool, while a piece is taken by a real hand
   bool steps_begun_ = false;
   std::string lit_step_;       // whose target is lit, or was lit last
   double removed_before_ = 0;  // up to the picture before [m^3]

@@ -398,7 +398,7 @@ void Mill::point_in_plane(const render::Ray& ray) {
 // the rest.
 void Mill::align_real_hand() {
   device::MappedHand& hand = *hands_.real;
-  hand.set_axes(view_of_hand(scene_.camera));
+  if (!carries_piece()) hand.set_axes(view_of_hand(scene_.camera));
   const bool rests = page_open() || measuring_.picks();
   hand.press(rests ? 0 : press_.spindle_of_device());
   lift_real_hand();

@@ -1,5 +1,7 @@
-// Free pieces of bone on the page: told, taken, moved, put down.
+// Free pieces of bone on the page: noticed, taken, moved, put down.
 #include <SDL2/SDL.h>
+
+#include <utility>
 
 #include "window/mill/mill.h"
 #include "window/shell/words.h"
@@ -8,14 +10,53 @@ namespace burr::app {
 
 using math::Vec3;
 
+namespace {
+
+// device: of this row's hand.
+PieceMode::Carrier carrier(const tick::TickRow& row, const device::DeviceSpec& device) {
+  constexpr int kOrientation = 6;  // degrees of freedom
+  const bool there = row.hand.valid && (row.hand.buttons & device::kLifted) == 0;
+  return {row.hand.world_from_tool, there && row.hand.pedal > 0, device.sensed >= kOrientation};
+}
+
+}  // namespace
+
 void Mill::look_at_pieces() {
   const bool open = menu_ == Menu::pieces;
   note(pieces_->look(open));
+  carry_piece();
   pieces_->show(scene_, open);
 }
 
+// The button that drives a tool carries the piece. Meanwhile the tool of the first hand stands
+// still and only touches.
+void Mill::carry_piece() {
+  const bool rests = has_piece() && hands_.real != nullptr;
+  if (rests && !mode_before_) {
+    mode_before_ = drill_.mode();
+    static_cast<void>(drill_.set_mode(tick::ToolMode::touch));
+    session_.command({tick::CommandKind::spindle_speed, 0});
+  } else if (!rests && mode_before_) {
+    static_cast<void>(drill_.set_mode(*std::exchange(mode_before_, {})));
+    session_.command({tick::CommandKind::spindle_speed, drill_.full_speed()});
+  }
+  if (!has_piece()) return;
+  PieceMode::Carrier by;
+  if (rests) by = carrier(row_, hands_.real->spec());
+  if (other_hand_carries() && !by.grabs)
+    by = carrier(hands_.suction->now(), hands_.suction->hand().spec());
+  pieces_->carry(by);
+}
+
+// A tool in the other hand would cut.
+bool Mill::other_hand_carries() const {
+  return hands_.suction != nullptr && hands_.suction->tool() == nullptr;
+}
+
 void Mill::draw_pieces_panel() {
-  const PiecesPressed pressed = draw_pieces(desk_.ui(), pieces_->state());
+  PiecesState state = pieces_->state();
+  state.carries = hands_.real != nullptr || other_hand_carries();
+  const PiecesPressed pressed = draw_pieces(desk_.ui(), state);
   if (pressed.typed) pieces_->set(pressed.mm, pressed.degrees);
   if (pressed.take) {
     lift();

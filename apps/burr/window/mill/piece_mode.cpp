@@ -137,14 +137,34 @@ void PieceMode::put_down() {
   if (taken_ && !putting_) putting_ = mover_.put(taken_->piece, taken_->by, taken_->turn);
 }
 
+void PieceMode::carry(const Carrier& by) {
+  if (!taken_ || putting_) return;
+  Taken& taken = *taken_;
+  if (!by.grabs) {
+    taken.grip.reset();
+    taken.may_grab = true;
+    return;
+  }
+  if (!taken.may_grab) return;
+  if (!taken.grip) taken.grip = {by.hand.p, taken.by, by.hand.q, taken.turn};
+  const Taken::Grip& grip = *taken.grip;
+  taken.by = grip.by + (by.hand.p - grip.hand);
+  if (by.turns)
+    taken.turn =
+        math::normalized(math::product(math::product(by.hand.q, grip.held.conjugate()), grip.turn));
+  taken.stale = true;
+}
+
 void PieceMode::shift(const Vec3& by) {
   if (!taken_ || putting_) return;
+  taken_->grip.reset();  // the hand grabs anew, from here
   taken_->by += by;
   taken_->stale = true;
 }
 
 void PieceMode::turn(const Vec3& axis, double degrees) {
   if (!taken_ || putting_) return;
+  taken_->grip.reset();
   taken_->turn = math::normalized(
       math::product(Quat(Eigen::AngleAxisd(degrees * kDegree, axis)), taken_->turn));
   taken_->stale = true;
@@ -152,6 +172,7 @@ void PieceMode::turn(const Vec3& axis, double degrees) {
 
 void PieceMode::set(const std::array<double, 3>& mm, const std::array<double, 3>& degrees) {
   if (!taken_ || putting_) return;
+  taken_->grip.reset();
   taken_->by = Vec3(mm[0], mm[1], mm[2]) * 1e-3;
   const Vec3 turn = Vec3(degrees[0], degrees[1], degrees[2]) * kDegree;
   const double angle = turn.norm();

@@ -41,6 +41,16 @@ class PieceMode {
   // In the picture's axes, by keys and mouse.
   void shift(const math::Vec3& by);
   void turn(const math::Vec3& axis, double degrees);
+  // Once a picture: a hand of its own orientation, as it is now. While it grabs, the piece goes where the
+  // hand goes, and turns about its own centre as the hand turns; a hand that lets go may move back and
+  // grab again. It must have let go once after the piece was taken. turns: the device knows how the
+  // hand is turned. A key, the mouse or a typed number meanwhile counts too.
+  struct Carrier {
+    math::Pose hand;
+    bool grabs = false, turns = false;
+  };
+  void carry(const Carrier& by);
+  [[nodiscard]] bool carried() const { return taken_ && taken_->grip; }
   // Of the panel: typed numbers, along and about the patient's axes.
   void set(const std::array<double, 3>& mm, const std::array<double, 3>& degrees);
 
@@ -56,6 +66,12 @@ class PieceMode {
     std::shared_ptr<const render::CoarseMesh> plain;  // where it came free
     std::shared_ptr<const render::CoarseMesh> ghost;  // where it is drawn
     bool stale = true;                                // the ghost
+    struct Grip {                                     // when the hand grabbed
+      math::Vec3 hand = math::Vec3::Zero(), by = math::Vec3::Zero();
+      math::Quat held = math::Quat::Identity(), turn = math::Quat::Identity();
+    };
+    std::optional<Grip> grip;
+    bool may_grab = false;  // no hand grabbed since it was taken
   };
   [[nodiscard]] math::Pose pose_of(const Taken& taken) const;
   [[nodiscard]] std::string plan_text() const;

@@ -41,7 +41,7 @@ PiecesPressed draw_pieces(Ui& ui, const PiecesState& state) {
   PiecesPressed pressed;
   const float u = ui.unit(), x = kSideLeft * u, y = kSideTop * u, wide = kSideWide * u;
   const std::size_t rows = std::clamp<std::size_t>(state.rows.size(), 1, kMostRows);
-  const float foot = state.taken ? 230 : 12;
+  const float foot = !state.taken ? 12 : state.carries ? 284 : 230;
   const float high = (kTop + kRow * static_cast<float>(rows) + foot) * u;
   pressed.close = begin_titled(ui, "##pieces", high, word(Word::pieces));
   float at = y + kTop * u;
@@ -78,6 +78,10 @@ PiecesPressed draw_pieces(Ui& ui, const PiecesState& state) {
     ImGui::SetCursorPosX(14 * u);
     ImGui::PushStyleColor(ImGuiCol_Text, ink::kDim);
     ImGui::TextUnformatted(word(Word::piece_keys));
+    if (state.carries) {
+      ImGui::SetCursorPosX(14 * u);
+      ImGui::TextUnformatted(word(Word::piece_hand));
+    }
     ImGui::SetCursorPosX(14 * u);
     ImGui::TextUnformatted(word(Word::piece_not_felt));
     ImGui::PopStyleColor();

@@ -9,12 +9,12 @@
 namespace burr::app {
 
 void SuctionTube::lead(workshop::SuctionHand* hand, render::Scene& scene,
-                       workshop::LiveSurface& live, bool clears) {
+                       workshop::LiveSurface& live, bool clears, bool turns) {
   if (hand == nullptr) return;
   const auto now = std::chrono::steady_clock::now();
   const double seconds =
       std::min(0.1, std::chrono::duration<double>(now - std::exchange(sucked_, now)).count());
-  hand->set_axes(view_of_hand(scene.camera));
+  if (turns) hand->set_axes(view_of_hand(scene.camera));
   const tick::TickRow& row = hand->now();
   workshop::put_second_tool(scene, &row, hand->tool());
   if (clears && workshop::sucks(row)) live.suck(row.contact.proxy, row.tool.radius, seconds);

@@ -14,9 +14,10 @@ namespace burr::app {
 
 class SuctionTube {
  public:
-  // hand: nullptr if there is none. clears: what is sucked disappears from the surface
+  // hand: nullptr if there is none. clears: what is sucked disappears from the surface. turns: the
+  // hand's axes follow the view
   void lead(workshop::SuctionHand* hand, render::Scene& scene, workshop::LiveSurface& live,
-            bool clears);
+            bool clears, bool turns);
 
  private:
   std::chrono::steady_clock::time_point sucked_;  // time of the last call of lead()

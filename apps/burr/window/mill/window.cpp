@@ -98,7 +98,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   else if (ticks_.begun())
     live.see(workshop::wound_tick(row_, session_.settings().servo.rate_hz));
   suck(live);
-  tube_.lead(hands_.suction, scene_, live, desk_.settings.effects);
+  tube_.lead(hands_.suction, scene_, live, desk_.settings.effects, !carries_piece());
   note(headset_.begin(live.governor(), scene_.camera));
   look_at_injury();
   point();

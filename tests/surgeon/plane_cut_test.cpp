@@ -1,0 +1,91 @@
+// The path of a cut along the plane of a step: which plane, how a tool is held in it, and how far it goes.
+#include "burr/surgeon/plane_cut.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
+#include "burr/scenario/rack.h"
+
+namespace burr::surgeon {
+namespace {
+
+using math::Vec3;
+constexpr double kMm = 1e-3;
+
+// A slab 2 mm wide across x, its middle at x = 3 mm, cut from above.
+scenario::Lesson slab() {
+  scenario::Lesson lesson;
+  lesson.approach = {Vec3::UnitZ()};
+  scenario::CaseRegion& region = lesson.regions.emplace_back();
+  region.name = "slab";
+  for (auto* shapes : {&region.add, &region.take}) {
+    scenario::Shape& face = shapes->emplace_back();
+    face.kind = scenario::ShapeKind::half_space;
+    face.normal = Vec3::UnitX();
+    face.a.at = Vec3(shapes == &region.add ? 2 : 4, 7, 1) * kMm;
+  }
+  scenario::Step& step = lesson.steps.emplace_back();
+  step.id = "cut";
+  step.region = "slab";
+  return lesson;
+}
+
+TEST(PlaneCut, TheMiddleOfASlabIsThePlane) {
+  const auto plane = plane_of(slab(), "cut");
+  ASSERT_TRUE(plane.ok()) << plane.error().text;
+  EXPECT_NEAR(plane->at.x(), 3 * kMm, 1e-12);
+  EXPECT_TRUE(plane->normal.isApprox(Vec3::UnitX()));
+  EXPECT_TRUE(plane->out.isApprox(Vec3::UnitZ()));
+}
+
+TEST(PlaneCut, WhatHasNoPlaneIsRefusedWithAReason) {
+  scenario::Lesson lesson = slab();
+  EXPECT_NE(plane_of(lesson, "saw").error().text.find("its steps are cut"), std::string::npos);
+  lesson.steps[0].approach = {Vec3::UnitX()};
+  EXPECT_NE(plane_of(lesson, "cut").error().text.find("runs across"), std::string::npos);
+  lesson.regions[0].take[0].normal = Vec3::UnitY();
+  EXPECT_NE(plane_of(lesson, "cut").error().text.find("parallel"), std::string::npos);
+}
+
+// The tip of what cuts goes through the bone and a quarter of a millimetre on; a saw that stands covers
+// the width in plunges, a round burr in strokes; the hand ends in free air with the foot off.
+TEST(PlaneCut, EveryToolGoesThroughAndNoFarther) {
+  const auto bone = phantom::bone_from_distance(
+      phantom::box_grid(Vec3(-6, -12, -6) * kMm, Vec3(12, 12, 6) * kMm, 0.25 * kMm), {},
+      phantom::box({10 * kMm, 8 * kMm, 3 * kMm}));
+  const auto plane = plane_of(slab(), "cut");
+  ASSERT_TRUE(plane.ok());
+  const scenario::RackTool stands = *scenario::built_in_rack().get("sagittal-saw"),
+                           lies = *scenario::built_in_rack().get("reciprocating-saw");
+  for (const Blade& blade : {blade_of(stands.tool, stands.cutter, stands.lean),
+                             blade_of(lies.tool, lies.cutter, lies.lean), round_blade(1 * kMm)}) {
+    const auto path = cut_along(*bone, *plane, blade, 60);
+    ASSERT_TRUE(path.ok()) << path.error().text;
+    double low = 1, left = 1, right = -1;
+    for (const device::PathPoint& point : path->points) {
+      const math::Pose& hand = point.world_from_tool;
+      const Vec3 ahead = hand.q * (blade.lies ? Vec3(-Vec3::UnitX()) : Vec3(-Vec3::UnitZ()));
+      const Vec3 side = hand.q * (blade.lies ? Vec3::UnitZ() : Vec3::UnitX());
+      EXPECT_TRUE(ahead.isApprox(-Vec3::UnitZ(), 1e-9));
+      EXPECT_NEAR(std::abs(side.y()), 1, 1e-9) << "the blade lies in the plane";
+      EXPECT_NEAR(hand.p.x(), 3 * kMm, 1e-12);
+      low = std::min(low, hand.p.z() - blade.beyond);
+      left = std::min(left, hand.p.y() - blade.width / 2);
+      right = std::max(right, hand.p.y() + blade.width / 2);
+    }
+    EXPECT_NEAR(low, -3.25 * kMm, 0.2 * kMm);
+    EXPECT_LT(left, -8 * kMm);
+    EXPECT_GT(right, 8 * kMm);
+    EXPECT_GT(path->points.front().world_from_tool.p.z() - blade.beyond, 7 * kMm);
+    EXPECT_GT(path->points.back().world_from_tool.p.z() - blade.beyond, 7 * kMm);
+    EXPECT_EQ(path->points.back().pedal, 0);
+    EXPECT_NEAR(path->duration(), 60, 2);
+  }
+  EXPECT_FALSE(cut_along(*bone, *plane, round_blade(1 * kMm), 1).ok());
+}
+
+}  // namespace
+}  // namespace burr::surgeon
