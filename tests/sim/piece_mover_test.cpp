@@ -24,13 +24,16 @@ using math::Quat;
 using math::Vec3;
 constexpr double kMm = 1e-3, kVoxel = 0.25 * kMm;
 
-// Two blocks with a bridge 1 mm wide at x = 2, and a hand that cuts through it and then rests.
-std::unique_ptr<Session> bridged() {
+// Two blocks with a bridge 1 mm wide at x = 2, and a hand that cuts through it and then rests. island: a
+// third block lies free beside them.
+std::unique_ptr<Session> bridged(bool island = false) {
   NoProgress quiet;
   const phantom::Depth whole = phantom::box({8 * kMm, 2 * kMm, 2 * kMm});
   auto bone = phantom::bone_from_distance(
       phantom::box_grid(Vec3(-10, -6, -6) * kMm, Vec3(14, 6, 6) * kMm, kVoxel), {},
-      [whole](const Vec3& p) {
+      [whole, island](const Vec3& p) {
+        const phantom::Depth block = phantom::box({1.5 * kMm, 2 * kMm, 2 * kMm});
+        if (island && p.x() > 9 * kMm) return block(p - Vec3(11, 0, 0) * kMm);
         const double kerf = std::abs(p.x() - 2 * kMm) - 1.2 * kMm;
         const double bridge = 0.5 * kMm - std::max(std::abs(p.y()), std::abs(p.z()));
         return std::min(whole(p), std::max(kerf, bridge));
@@ -98,6 +101,21 @@ TEST(PieceMover, TellsOnceListsAndPutsDown) {
   ASSERT_EQ(moved.size(), 1U);
   EXPECT_LT((moved[0].now * moved[0].centre - moved[0].centre - Vec3(3, 0, 0) * kMm).norm(), 1e-9);
   EXPECT_NE(session->bone().content_hash(), at_start);
+}
+
+TEST(PieceMover, WhatWasFreeBeforeIsNoNews) {
+  const std::unique_ptr<Session> session = bridged(true);
+  PieceMover mover(*session);
+  session->start();
+  std::vector<PieceMover::News> news;
+  ASSERT_TRUE(waited_for([&] {
+    for (const PieceMover::News& one : mover.look())
+      if (!one.dust) news.push_back(one);
+    return !news.empty();
+  }));
+  session->stop();
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_NEAR(1e9 * news[0].volume, 4.8 * 16, 0.1 * 4.8 * 16) << "the island has 48";
 }
 
 }  // namespace
