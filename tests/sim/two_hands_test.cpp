@@ -49,6 +49,7 @@ struct Wish {
   Vec3 second_at = {5 * kMm, 0, 0};
   haptics::Method touch = haptics::Method::shaft;
   double seconds = 3;
+  bool heat = false;
 };
 
 std::unique_ptr<Session> two_hands(const Wish& wish = {}) {
@@ -58,6 +59,8 @@ std::unique_ptr<Session> two_hands(const Wish& wish = {}) {
   settings.servo.touch = wish.touch;
   settings.servo.undo_bricks = 2048;
   settings.surface.reserve_blocks = 1 << 13;
+  if (wish.heat)
+    settings.heat = {{{-12 * kMm, -8 * kMm, -8 * kMm}, {12 * kMm, 8 * kMm, 8 * kMm}}, {}};
   auto made = Session::make(
       phantom::bone_from_distance(phantom::box_grid({-12 * kMm, -8 * kMm, -8 * kMm},
                                                     {12 * kMm, 8 * kMm, 8 * kMm}, 0.25 * kMm),
@@ -100,6 +103,35 @@ TEST(TwoHandsSession, NeitherCutsTheOthersDebt) {
   const double with = both->outcome().ledger.removed - both->second_hand()->row().ledger.removed,
                without = alone->outcome().ledger.removed;
   EXPECT_NEAR(with, without, 1e-3 * without);
+}
+
+// What the other hand's tool spends warms the bone as well: the heat's account has it all, and none is
+// lost.
+TEST(TwoHandsSession, BothWarmTheBone) {
+  NoProgress quiet;
+  double spent[2] = {0, 0}, second = 0;
+  for (const bool two : {false, true}) {
+    const auto session = two_hands({.second_tool = two ? "fissure-bur" : nullptr,
+                                    .second_at = {5 * kMm, 0, two ? 0 : 3 * kMm},
+                                    .seconds = 2,
+                                    .heat = true});
+    std::vector<double> sum = {0};
+    for (int n = 0; n < 2000; ++n) {
+      static_cast<void>(session->servo().tick(false));
+      session->servo().publish();
+      sum.push_back(sum.back() + 1e-3 * session->second_hand()->row().cutting_w);
+    }
+    session->run(1e-3, quiet);  // waits for the heat
+    thermal::HeatSummary heat;
+    ASSERT_TRUE(session->heat(heat));
+    if (two) second = sum.at(static_cast<std::size_t>(heat.time_ns / 1'000'000));
+    const thermal::HeatLedger& all = heat.ledger;
+    spent[two ? 1 : 0] = all.spent;
+    EXPECT_NEAR(all.into, all.stored + all.convected + all.conducted + all.removed,
+                1e-6 * all.into);
+  }
+  EXPECT_GT(second, 0.1);  // J
+  EXPECT_NEAR(spent[1] - spent[0], second, 0.05 * second);
 }
 
 TEST(TwoHandsSession, AnUndoTakesBackTheStrokeOfBoth) {

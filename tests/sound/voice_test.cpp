@@ -49,6 +49,23 @@ TEST(Voice, FadesWhenNobodySpeaksAndComesBack) {
   EXPECT_LT(test::sharpest(again), 1.05 * bends);
 }
 
+TEST(Voice, TwoToolsAreHeardBesideEachOther) {
+  Voice voice;
+  const SoundState first = turning(40'000);
+  voice.update_second(turning(30'000));
+  const std::vector<float> both = played(voice, 3, &first);
+  EXPECT_LE(test::largest(both), 1);
+  const std::vector<float> end = test::end_of(both, 96'000);
+  const std::vector<double> power = test::spectrum(end);
+  const auto at = [&](double hz) {
+    return power[static_cast<std::size_t>(std::lround(hz * 96'000 / test::kRate))];
+  };
+  EXPECT_GT(at(2000.0 / 3), 1e3 * at(580)) << "the first";
+  EXPECT_GT(at(500), 1e3 * at(580)) << "the second";
+  // and both fall silent when nobody speaks
+  EXPECT_EQ(test::largest(test::end_of(played(voice, 1, nullptr), 9'600)), 0);
+}
+
 TEST(Voice, OffIsSilentAndOnIsBack) {
   Voice voice;
   const SoundState heard = turning(40'000);

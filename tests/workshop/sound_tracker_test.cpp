@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "burr/scenario/rack.h"
+#include "burr/sound/synth.h"
+#include "sound/ear.h"
 
 namespace burr::workshop {
 namespace {
@@ -119,6 +121,64 @@ TEST(SoundTracker, AToolOfTheRackSoundsAsItMoves) {
   one.tool.number = -1;
   one.tool.radius = 3e-3;
   EXPECT_NEAR(tracker.update(one).to_spare, 7e-3, 1e-12);
+}
+
+// By the samples: the line of a bur lies at its turns, that of a saw at its strokes, and what a saw
+// cuts swells twice a stroke. The other hand's tool is heard as itself, beside the first.
+TEST(SoundTracker, TheOtherHandsToolIsHeardAsItself) {
+  for (const char* name : {"fissure-bur", "sagittal-saw"}) {
+    const scenario::RackTool& rack = *scenario::built_in_rack().find(name);
+    const tool::ShapedTool other{rack.name, rack.tool, rack.cutter};
+    const bool saw = rack.cutter.drive == tool::Drive::oscillating;
+    SoundTracker tracker(
+        {}, [](const math::Vec3& p) { return p.z(); }, &other);
+    EXPECT_EQ(tracker.second(), nullptr) << "nothing known of it yet";
+    sound::SoundState first;
+    for (std::uint64_t tick = 0; tick <= 100; tick += 20) {
+      const double t = 1e-3 * static_cast<double>(tick);
+      tick::TickRow one = row(tick, 5 * t, 2 * t), two = row(tick, 2 * t, 1 * t);
+      one.contact.proxy = {0, 0, 9e-3};
+      two.hand.world_from_tool.p = two.contact.proxy = {0, 0, 4e-3};
+      two.tool.number = 0;
+      two.contact.touching = true;
+      two.spindle_rad_s = tool::full_speed(other.cutter);
+      first = tracker.update(one, &two);
+    }
+    // each of them only what it removes itself, and one warning, for the nearer tool
+    EXPECT_NEAR(first.removal_m3_s, 3e-9, 1e-13);
+    EXPECT_EQ(first.spindle_rad_s, 0);
+    EXPECT_LT(first.to_spare, 4.1e-3);
+    ASSERT_NE(tracker.second(), nullptr);
+    EXPECT_NEAR(tracker.second()->removal_m3_s, 2e-9, 1e-13);
+    EXPECT_EQ(tracker.second()->to_spare, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(tracker.second()->strokes, saw);
+
+    const double turns = tool::full_speed(other.cutter) / (2 * M_PI);
+    if (saw) {
+      EXPECT_NEAR(turns, rack.cutter.cycles_hz, 1e-6);
+    }
+    sound::SoundState idle = *tracker.second();
+    idle.removal_m3_s = 0;
+    idle.touching = false;
+    sound::Synth synth;
+    synth.update(idle);
+    std::vector<float> samples(1 << 17);
+    synth.make(samples);
+    synth.make(samples);
+    EXPECT_NEAR(test::peak_hz(samples), turns, 0.01 * turns) << name;
+
+    // of what it cuts alone: how loud it is, as a signal
+    sound::Synth cuts({.spindle = 0, .tooth = 0, .knock = 0});
+    cuts.update(*tracker.second());
+    cuts.make(samples);
+    cuts.make(samples);
+    double mean = 0;
+    for (float& one : samples) mean += static_cast<double>(one *= one) / (1 << 17);
+    for (float& one : samples) one -= static_cast<float>(mean);
+    if (saw) {
+      EXPECT_NEAR(test::peak_hz(samples), 2 * turns, 0.02 * turns) << "twice a stroke";
+    }
+  }
 }
 
 }  // namespace

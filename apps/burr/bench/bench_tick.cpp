@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/bench.h"
+#include "bench/bench_tool.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/haptics/force_steps.h"
 #include "burr/math/rotation.h"
@@ -280,10 +281,25 @@ void add(CLI::App& bench, app::Todo& todo) {
   command->add_option("--rate", options->rate_hz, "ticks a second")
       ->check(CLI::Range(500.0, 10000.0))
       ->capture_default_str();
+  auto tool = std::make_shared<std::string>();
+  command->add_option("--tool", *tool,
+                      "with this tool of the rack, in the five scenes of `burr bench tool`");
   command->add_flag("--evict", options->evict,
                     "read 64 MiB between ticks, so that the caches are cold");
   command->add_flag("--json", options->json, "one JSON object on the last line");
-  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+  command->callback([options, tool, command, &todo] {
+    if (tool->empty()) {
+      todo.work = [options] { return run(*options); };
+      return;
+    }
+    app::ToolBench with;
+    with.tool = *tool;
+    with.mill = !options->mill.empty();
+    with.json = options->json;
+    if (command->count("--size") > 0) with.size = options->size;
+    if (command->count("--ticks") > 0) with.ticks = options->ticks;
+    todo.work = [with] { return app::bench_tools(with); };
+  });
 }
 
 const app::BenchCommand command{10, add}, methods{12, add_methods};

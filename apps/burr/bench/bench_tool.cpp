@@ -4,6 +4,8 @@
 // A rigid hand moves in curves of Lissajous in three directions and about three axes, at most 100 mm/s
 // and 3 rad/s in each, and presses half a millimetre in. 256^3 voxels of 0.25 mm, axes turned by about
 // 0.3 rad against the voxels', 1 kN/m. The clock is the thread's CPU time for the whole tick.
+#include "bench/bench_tool.h"
+
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -38,12 +40,7 @@ constexpr double kSpeed = 0.1, kTurns = 3;             // of the hand, at most [
 constexpr int kWarmUp = 400;                           // ticks from free air into contact
 constexpr double kRate = 1000;
 
-struct Options {
-  std::string tool = "all", scene = "all";
-  int ticks = 2000, size = 256;
-  double speed = 1;  // of the hand, over the usual one
-  bool mill = false, json = false;
-};
+using Options = app::ToolBench;
 
 // Half the width of the cutting parts along the tool's x and y, and how far they reach below it.
 struct Extent {
@@ -196,7 +193,9 @@ Result<nlohmann::json> measure(const Options& options, const scenario::RackTool&
   return out;
 }
 
-Status run(const Options& options) {
+}  // namespace
+
+Status burr::app::bench_tools(const ToolBench& options) {
   const scenario::Rack& rack = scenario::built_in_rack();
   std::vector<scenario::RackTool> tools = rack.all;
   if (options.tool != "all") {
@@ -229,6 +228,8 @@ Status run(const Options& options) {
   return fine();
 }
 
+namespace {
+
 void add(CLI::App& bench, app::Todo& todo) {
   auto options = std::make_shared<Options>();
   std::vector<std::string> scenes = kScenes;
@@ -249,7 +250,8 @@ void add(CLI::App& bench, app::Todo& todo) {
       ->check(CLI::Range(64, 512))
       ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON array on the last line");
-  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+  command->callback(
+      [options, &todo] { todo.work = [options] { return app::bench_tools(*options); }; });
 }
 
 const app::BenchCommand command{11, add};

@@ -210,7 +210,7 @@ Status film(const Options& options, record::Player& player) {
 
 // Writes the sound of the whole session, each sample at the time of its tick.
 Status sound_of(const Options& options, record::Player& player, const sim::Recorded& recorded) {
-  sound::Synth synth;
+  sound::Synth synth, second({.seed = 2});
   auto file = sound::WavFile::create(options.sound, static_cast<int>(synth.settings().rate_hz));
   if (!file) return file.error();
   workshop::SparedDistance spared_distance;
@@ -226,7 +226,9 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       fmt::print(stderr, "no warnings near structures to spare: {}\n", bone.error().text);
     }
   }
-  workshop::SoundTracker tracker(recorded.settings.servo, spared_distance.distances());
+  const auto& other = player.info().second;
+  workshop::SoundTracker tracker(recorded.settings.servo, spared_distance.distances(),
+                                 other && !other->tools.empty() ? &other->tools.front() : nullptr);
   const double per_tick = synth.settings().rate_hz / player.info().rate_hz;
   std::vector<float> samples(4096);
   record::StepCursor steps = player.steps();
@@ -237,7 +239,8 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       progress().report(static_cast<double>(step.row.tick) / static_cast<double>(player.end_tick()),
                         "computing the sound");
     }
-    synth.update(tracker.update(step.row));
+    synth.update(tracker.update(step.row, step.second ? &*step.second : nullptr));
+    if (tracker.second() != nullptr) second.update(*tracker.second());
     // up to the end of this tick; where rows are missing, the last sound continues
     const double end = static_cast<double>(step.row.tick + 1 - player.first_tick()) * per_tick;
     if (end > static_cast<double>(sound::WavFile::kMostSamples))
@@ -249,6 +252,7 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
       const auto left = static_cast<std::uint64_t>(end) - file->samples();
       const auto some = std::span(samples).first(std::min<std::uint64_t>(left, samples.size()));
       synth.make(some);
+      if (tracker.second() != nullptr) second.mix(some);
       file->write(some);
     }
   }

@@ -328,6 +328,66 @@ void wrench_and_energy(Report::Part& part, double h) {
   part.at_most(at("energy.closed-loop", h), 0.005 * most, std::abs(work), "J");
 }
 
+// A box on a slope under a load straight down: it slides if and only if tan > mu. By steps of the slope:
+// the steepest on which it holds, and the least on which it slides, over mu.
+void box_on_slope(Report::Part& part, double h) {
+  const tool::Tool box = one_part({ShapeKind::box, 2.2 * kMm, 1.7 * kMm, 0.7 * kMm, 0.3 * kMm});
+  for (const double mu : {0.2, 0.5})
+    for (const double share : {0.98, 1.02}) {
+      const double slope = std::atan(share * mu);
+      const Vec3 up(std::sin(slope), 0, std::cos(slope));
+      const Bone bone(phantom::slab(up), h, 9 * kMm);
+      const Quat along = turn_about({0, 1, 0}, slope);
+      haptics::SixProxy proxy(bone.surface, box, {.lever = std::sqrt(kTurning / kStiffness)},
+                              {3 * kMm * up, along});
+      proxy.set_friction({mu, mu});
+      for (int n = 0; n <= 250; ++n)
+        static_cast<void>(proxy.step({(1 + std::max(0.0, 2 - n / 100.0)) * kMm * up, along}));
+      const Vec3 rest = proxy.pose().p;
+      for (int n = 0; n < 4000; ++n)
+        static_cast<void>(
+            proxy.step({proxy.pose().p - Vec3(0, 0, 0.5 * kMm * std::min(1.0, n / 500.0)), along}));
+      const double went = (proxy.pose().p - rest).norm();
+      const std::string scene = fmt::format("box-on-slope-mu{}", mu);
+      if (share < 1)
+        part.at_most(at((scene + ".holds-at-98").c_str(), h), 0.02 * kMm, went, "m");
+      else
+        part.at_least(at((scene + ".slides-at-102").c_str(), h), 0.1 * kMm, went, "m");
+    }
+}
+
+// A disc of radius R pressed flat with N and spun about its normal: M = 2 mu N R / 3 where it begins to
+// slide and while it slides.
+void spun_disc(Report::Part& part, double h) {
+  const Bone bone(phantom::slab(), h, 9 * kMm);
+  const double mu = 0.3, slides = 0.27, delta = 1 * kMm, thick = 1 * kMm;
+  for (const double radius : {2 * kMm, 3.5 * kMm}) {
+    const tool::Tool disc = one_part({ShapeKind::cylinder, radius, 0, 0.7 * kMm, 0.3 * kMm});
+    haptics::SixProxy proxy(bone.surface, disc, {.lever = std::sqrt(kTurning / kStiffness)},
+                            {{0, 0, thick + 2 * kMm}, Quat::Identity()});
+    proxy.set_friction({mu, slides});
+    const auto hand = [&](int n, double turn) {
+      const double down = std::min(1.0, n / 200.0);
+      return Pose{{0, 0, thick + 2 * kMm - down * (2 * kMm + delta)},
+                  turn_about({0, 0, 1}, turn + 1e-12)};
+    };
+    SixTouch touch;
+    for (int n = 0; n <= 250; ++n) touch = proxy.step(hand(n, 0));
+    double held = 0, began = 0, sum = 0;
+    for (int n = 0; n < 4000; ++n) {
+      touch = proxy.step(hand(250, 4e-6 * n));
+      const double torque = -torque_of(touch).z();
+      if (began == 0 && !touch.stuck) began = held;
+      held = torque;
+      if (n >= 3000) sum += torque / 1000;
+    }
+    const double truth = 2 * mu * kStiffness * delta * radius / 3;
+    const std::string scene = fmt::format("disc-spun-{}mm", radius / kMm);
+    part.near(at((scene + ".begins-to-slide").c_str(), h), truth, began, 0.05 * truth, "N m");
+    part.near(at((scene + ".slides").c_str(), h), slides / mu * truth, sum, 0.05 * truth, "N m");
+  }
+}
+
 tool::Tool blade_and_flame() {
   tool::Tool tool = one_part({ShapeKind::box, 0.2 * kMm, 2 * kMm, 2 * kMm, 0.15 * kMm});
   static_cast<void>(tool::add_part(tool, {{ShapeKind::vesica, 1 * kMm, 0, 3 * kMm, 0.3 * kMm},
@@ -378,8 +438,8 @@ void shapes(const Verify& verify, Report::Part& part) {
   for (const double h : verify.quick ? std::vector<double>{0.25 * kMm}
                                      : std::vector<double>{0.25 * kMm, 0.125 * kMm}) {
     const std::function<void(Report::Part&, double)> all[] = {
-        lying_cylinder, lever_on_rim,  tilted_box,       disc_in_slot,
-        peg_in_hole,    burr_in_canal, wrench_and_energy};
+        lying_cylinder, lever_on_rim, tilted_box,        disc_in_slot, peg_in_hole,
+        burr_in_canal,  box_on_slope, wrench_and_energy, spun_disc};
     for (const auto& one : all) {
       if (interrupted()) return;
       one(part, h);
@@ -393,7 +453,9 @@ void shapes(const Verify& verify, Report::Part& part) {
 const VerifyPart part{
     15, "shapes", "Tools of several parts",
     "A tool that has a place and a turn rests on bones for which force, torque and "
-    "place are known; the spring has 1 N/mm and 0.3 N m/rad, the lattice is turned.",
+    "place are known, slides where its friction ends, and is braked by it when it spins; the "
+    "spring has 1 N/mm and "
+    "0.3 N m/rad, the lattice is turned.",
     shapes};
 
 }  // namespace

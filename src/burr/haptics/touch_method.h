@@ -56,6 +56,8 @@ struct ProxySettings {
   // 0: no limit. A burr that slips off a rough place would otherwise leap within one tick, which
   // no tool that has mass can do.                                                     [m/tick]
   double slip = 0;
+  // Friction holds tools of several parts too (six/six_friction.h): a shaft, the tools of the rack.
+  bool parts_rub = true;
   int max_moves = 12;   // per tick; a faster hand is caught up with later
   double close = 0.02;  // a move shorter than this ends the search                      [voxel]
   double push_out_speed = 5e-3;  // speed at which bone that grew pushes the burr out  [voxel/tick]

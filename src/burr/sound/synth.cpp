@@ -238,11 +238,17 @@ double Synth::warning() BURR_RT {
   return settings_.warning * loud * std::sin(2 * kPi * warn_turn_);
 }
 
+double Synth::sample() BURR_RT {
+  const double sum = spindle() + cutting() + knock() + coolant() + warning();
+  return bounded(loudness_.step(usual_) * sum);
+}
+
 void Synth::make(std::span<float> samples) BURR_RT {
-  for (float& sample : samples) {
-    const double sum = spindle() + cutting() + knock() + coolant() + warning();
-    sample = static_cast<float>(bounded(loudness_.step(usual_) * sum));
-  }
+  for (float& one : samples) one = static_cast<float>(sample());
+}
+
+void Synth::mix(std::span<float> samples) BURR_RT {
+  for (float& one : samples) one = static_cast<float>(bounded(static_cast<double>(one) + sample()));
 }
 
 }  // namespace burr::sound

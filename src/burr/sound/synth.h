@@ -73,6 +73,8 @@ class Synth {
   void loudness(double wanted) BURR_RT;
   // Fills `samples`, one channel, each within -1..1.
   void make(std::span<float> samples) BURR_RT;
+  // Adds the sound to what is in `samples`; the sum stays within -1..1.
+  void mix(std::span<float> samples) BURR_RT;
 
   [[nodiscard]] const SynthSettings& settings() const BURR_RT { return settings_; }
 
@@ -96,6 +98,7 @@ class Synth {
   [[nodiscard]] double warning() BURR_RT;
   [[nodiscard]] double white() BURR_RT;
   [[nodiscard]] double below_half_rate(double hz) const BURR_RT;
+  [[nodiscard]] double sample() BURR_RT;
 
   static constexpr int kLines = 4;  // of the spindle: f_r and its multiples
 

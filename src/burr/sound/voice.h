@@ -3,8 +3,8 @@
 //
 // When nothing was set for a while - the program has stopped, or is busy - the sound fades, and
 // comes back by itself. It begins silent.
-// Guarantee: update(), on(), loudness() and make() are wait-free and allocate no memory.
-// Thread: update() one; make() one other, that of the audio; on() and loudness() any.
+// Guarantee: update(), update_second(), on(), loudness() and make() are wait-free and allocate no memory.
+// Thread: update() and update_second() one; make() one other, that of the audio; on() and loudness() any.
 #pragma once
 
 #include <atomic>
@@ -26,6 +26,8 @@ class Voice {
   explicit Voice(const VoiceSettings& settings = {});
 
   void update(const SoundState& now) BURR_RT { door_.publish(now); }
+  // The tool of the other hand, heard beside it; nothing is heard of it before the first call.
+  void update_second(const SoundState& now) BURR_RT { second_door_.publish(now); }
   void on(bool wanted) BURR_RT { on_.store(wanted, std::memory_order_relaxed); }
   [[nodiscard]] bool is_on() const BURR_RT { return on_.load(std::memory_order_relaxed); }
   void loudness(double wanted) BURR_RT { loudness_.store(wanted, std::memory_order_relaxed); }
@@ -36,7 +38,9 @@ class Voice {
   Synth synth_;
   double silent_after_;
   double since_update_;  // time since the last update() [s]
-  rt::Latest<SoundState> door_;
+  rt::Latest<SoundState> door_, second_door_;
+  Synth second_;
+  bool has_second_ = false;
   std::atomic<bool> on_ = true;
   std::atomic<double> loudness_ = 1;
 };

@@ -33,7 +33,9 @@ bool Heating::take(const HeatRow& row) {
   if (row.start_over || !begun_) start_over(time_ns);
   const bool newer = pass(time_ns);
 
-  if (row.irrigated)
+  if (row.beside)
+    ;  // the row of the first hand's tool says where the coolant runs
+  else if (row.irrigated)
     grid_.irrigate(row.place);
   else
     grid_.dry();

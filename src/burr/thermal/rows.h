@@ -18,9 +18,10 @@ struct HeatRow {
   math::Vec3 place =
       math::Vec3::Zero();  // of the contact (and of the coolant), on the bone, world [m]
   double energy = 0;       // spent by the burr since the previous row [J]
-  double radius = 0;       // of the burr  [m]
+  double radius = 0;       // of the burr, or half the thickness of another tool  [m]
   Edge edge = Edge::flute;
   bool irrigated = false;
+  bool beside = false;      // of another place in the same moment: the coolant runs as it did
   bool start_over = false;  // the session is reset: all at start temperature
 };
 

@@ -40,16 +40,34 @@ const volume::Tissue& Cutting::touched_tissue() const BURR_RT {
   return tissue_at(touch.proxy - (settings_.burr.radius + 0.5 * bone_.grid().voxel) * cut_normal_);
 }
 
+// The same under the part that presses most, of a tool of several parts.
+const volume::Tissue& Cutting::rubbed_tissue() const BURR_RT {
+  const haptics::ToolContact* parts = hand_.parts();
+  if (!settings_.tool_friction || parts == nullptr || !parts->by_part || parts->active == 0)
+    return touched_tissue();
+  const haptics::SixContact* most = parts->contacts.data();
+  for (int a = 1; a < parts->active; ++a) {
+    const haptics::SixContact& one = parts->contacts[static_cast<std::size_t>(a)];
+    if (one.load > most->load) most = &one;
+  }
+  return tissue_at(hand_.tool() + most->arm - 0.5 * bone_.grid().voxel * most->normal);
+}
+
 const volume::Tissue& Cutting::tissue_at(const Vec3& world) const BURR_RT {
   const math::Ijk at = (bone_.grid().grid_from_world(world).array() + 0.5).floor().cast<int>();
   return bone_.tissues()[bone_.tissue(at.x(), at.y(), at.z())];
 }
 
 // Bone rubs as its tissue says while the spindle stands; a turning burr hardly at all.
+// Parts that turn or stroke slide by themselves, a hundred times as fast as the hand: rub() has their
+// force.
 double Cutting::friction() const BURR_RT {
+  const haptics::ToolContact* parts = hand_.parts();
+  if (settings_.tool_friction && parts != nullptr && parts->by_part && spindle_.speed() != 0)
+    return 0;
   if (spindle_.speed() != 0) return settings_.friction_turning;
   const bool rubs = hand_.touch().touching && !hand_.touch().slipping;
-  return rubs ? touched_tissue().friction * settings_.friction_scale : 0;
+  return rubs ? rubbed_tissue().friction * settings_.friction_scale : 0;
 }
 
 // ---- on the hand
@@ -67,8 +85,9 @@ Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
   drag_ += share * (settings_.drag_gain * now_.drag - drag_);
   moment_ += share * (settings_.drag_gain * cut_moment_ - moment_);
   drag_share_ = 0;
-  const double ratio =
-      last_push_ > 0 ? settings_.drag_gain * math::norm(now_.drag) / last_push_ : 0;
+  // a shaft that rubs presses too
+  const double push = rubbing_.power > 0 ? last_load_ : last_push_;
+  const double ratio = push > 0 ? settings_.drag_gain * math::norm(now_.drag) / push : 0;
   drag_ratio_ += share * (ratio - drag_ratio_);
   // once per tooth, where the ticks are quick enough to carry it
   const double tooth = teeth() * spindle_.speed() * dt_;  // [rad] a tick
@@ -92,6 +111,10 @@ Vec3 Cutting::vibration() BURR_RT {
   now.spindle_rad_s = spindle_.speed();
   now.axis = hand_.axis();
   if (hand_.touch().touching) now.normal = hand_.touch().normal;
+  // a stroke shakes along its way, which is across what is given here and the normal
+  if (shaped() != nullptr && settings_.tool_friction && tool::stroke_speed(shaped()->cutter) > 0 &&
+      hand_.touch().touching)
+    now.axis = now.normal.cross(Vec3(hand_.tool_turn() * shaped()->cutter.way));
   now.cutting_force = last_push_;
   return vibration_.step(now, dt_);
 }
@@ -155,6 +178,13 @@ bool Cutting::works(double push, bool may) BURR_RT {
 
 void Cutting::cut(std::uint64_t tick, const Vec3& touched, bool may, std::uint64_t path_mark,
                   std::uint32_t& flags) BURR_RT {
+  cut_tool(tick, touched, may, path_mark, flags);
+  rubbing_ = {};
+  if (settings_.tool_friction && may) rub(touched);
+}
+
+void Cutting::cut_tool(std::uint64_t tick, const Vec3& touched, bool may, std::uint64_t path_mark,
+                       std::uint32_t& flags) BURR_RT {
   const haptics::Touch& touch = hand_.touch();
   const bool pushes = may && touch.touching && !touch.slipping && settings_.mode != ToolMode::touch;
   const Press now = press(touched);
@@ -224,9 +254,10 @@ void Cutting::brush(const edit::Cut& cut, std::uint32_t& flags) BURR_RT {
 
 Cutting::Warming Cutting::warming() const BURR_RT {
   const haptics::Touch& touch = hand_.touch();
-  if (shaped() != nullptr) return {now_.power, warm_place_, thermal::Edge::flute};
+  if (shaped() != nullptr) return {now_.power, warm_place_, thermal::Edge::flute, warm_radius_};
   const bool rubs = settings_.mode == ToolMode::cut && now_.power <= 0 && last_push_ > 0;
   Warming warming;
+  warming.radius = settings_.burr.radius;
   warming.power = now_.power;
   if (rubs)
     warming.power = settings_.friction_turning * last_push_ * std::abs(spindle_.speed()) *

@@ -71,12 +71,18 @@ class Cutting {
     double power = 0;                       // [W]
     math::Vec3 place = math::Vec3::Zero();  // [m]
     thermal::Edge edge = thermal::Edge::flute;
+    double radius = 0;  // of the part, or half its thickness  [m]
   };
   [[nodiscard]] Warming warming() const BURR_RT;
+  // The same of parts that turn or stroke and never cut, as a shaft that leans on bone.
+  [[nodiscard]] const Warming& rubbing() const BURR_RT { return rubbing_; }
 
  private:
   [[nodiscard]] const volume::Tissue& touched_tissue() const BURR_RT;
+  [[nodiscard]] const volume::Tissue& rubbed_tissue() const BURR_RT;
   [[nodiscard]] bool tooth_is_carried() const BURR_RT;
+  void cut_tool(std::uint64_t tick, const math::Vec3& touched, bool may, std::uint64_t path_mark,
+                std::uint32_t& flags) BURR_RT;
   // How hard the cutting parts press, and along which normal.
   struct Press {
     math::Vec3 normal = math::Vec3::Zero();  // unit, out of the bone
@@ -86,6 +92,8 @@ class Cutting {
   [[nodiscard]] edit::Cutting by_law(const Press& press, double speed) BURR_RT;
   // ---- a tool of any shape (shaped_cutting.cpp)
   [[nodiscard]] const tool::ShapedTool* shaped() const BURR_RT;
+  [[nodiscard]] edit::Stroke stroke_now() const BURR_RT;
+  void rub(const math::Vec3& touched) BURR_RT;
   [[nodiscard]] bool drive_moves(double push) const BURR_RT;
   void cut_shaped(double push, bool may, std::uint32_t& flags, std::uint64_t path_mark) BURR_RT;
   void swing_mallet() BURR_RT;
@@ -117,7 +125,10 @@ class Cutting {
   double since_blow_ = 1e9;  // [s]
   double burr_speed_ = 0;    // of the burr at full pedal, while a tool is in the hand
   math::Vec3 warm_place_ = math::Vec3::Zero();  // of a tool of any shape               [m]
+  double warm_radius_ = 0;                      // half the thickness of what cut there [m]
+  Warming rubbing_;                             // in the last tick
   double last_push_ = 0;                        // of touch alone, along the normal [N]
+  double last_load_ = 0;                        // the same of all parts, also those that rub [N]
   math::Vec3 drag_ = math::Vec3::Zero();        // of the bone on the burr, as the hand gets it [N]
   double drag_ratio_ = 0;                       // over the push, likewise
   math::Vec3 cut_moment_ = math::Vec3::Zero();  // of the last cut of a shaped tool [N m]

@@ -19,10 +19,25 @@ Outbox::Outbox(const volume::Bone& bone, edit::ChangedQueue& changed, const Cont
       dt_(1.0 / controls.settings.rate_hz),
       burr_radius_(controls.settings.burr.radius) {}
 
-// What the burr spent meanwhile, and where last.
-void Outbox::note_heat(std::uint64_t tick, const Cutting& cutting) BURR_RT {
+// What the tools spent meanwhile, and where last.
+void Outbox::note_heat(std::uint64_t tick, const Cutting& cutting, const Cutting* second) BURR_RT {
   if (heat_ == nullptr) return;
   const Cutting::Warming now = cutting.warming();
+  const auto beside = [&](std::size_t which, const Cutting::Warming& warming) BURR_RT {
+    if (!(warming.power > 0)) return;
+    thermal::HeatRow& row = heat_beside_[which];
+    row.beside = true;
+    row.energy += warming.power * dt_;
+    row.place = warming.place;
+    row.edge = warming.edge;
+    row.radius = warming.radius;
+  };
+  beside(0, cutting.rubbing());
+  if (second != nullptr) {
+    beside(1, second->warming());
+    beside(2, second->rubbing());
+  }
+  if (now.radius > 0) heat_row_.radius = now.radius;
   if (now.power > 0) {
     heat_row_.energy += now.power * dt_;
     heat_row_.place = now.place;
@@ -33,9 +48,13 @@ void Outbox::note_heat(std::uint64_t tick, const Cutting& cutting) BURR_RT {
   const auto every = static_cast<std::uint64_t>(std::max(1.0, std::round(kHeatEvery / dt_)));
   if (tick % every != 0 && !heat_row_.start_over) return;
   heat_row_.time_ns = std::llround(static_cast<double>(tick) * dt_ * 1e9);
-  heat_row_.radius = controls_.settings.burr.radius;
   heat_row_.irrigated = controls_.irrigated;
   static_cast<void>(heat_->push(heat_row_));
+  for (thermal::HeatRow& row : heat_beside_) {
+    row.time_ns = heat_row_.time_ns;
+    if (row.energy > 0) static_cast<void>(heat_->push(row));
+    row.energy = 0;
+  }
   heat_row_.energy = 0;
   heat_row_.start_over = false;
 }

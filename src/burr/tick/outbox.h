@@ -8,6 +8,7 @@
 // at construction.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -50,8 +51,9 @@ class Outbox {
   void note_released(bool released) BURR_RT {
     released_.store(released, std::memory_order_relaxed);
   }
-  // The energy of this tick; a row goes out every hundredth of a second.
-  void note_heat(std::uint64_t tick, const Cutting& cutting) BURR_RT;
+  // The energy of this tick; a row goes out every hundredth of a second, and one more for every other
+  // place that was warmed. second: the other hand's; nullptr: it never cuts.
+  void note_heat(std::uint64_t tick, const Cutting& cutting, const Cutting* second) BURR_RT;
   // The bone is as it was at the start: so is its heat.
   void start_heat_over() BURR_RT { heat_row_.start_over = true; }
 
@@ -83,6 +85,8 @@ class Outbox {
   rt::Latest<TickRow>* watch_ = nullptr;
   thermal::Worker* heat_ = nullptr;
   thermal::HeatRow heat_row_;
+  std::array<thermal::HeatRow, 3>
+      heat_beside_;  // rubbing parts, the second tool, its rubbing parts
   rt::Latest<TickRow> view_;
   std::atomic<double> burr_radius_;
   std::atomic<bool> released_ = false;

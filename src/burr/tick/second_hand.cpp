@@ -57,11 +57,13 @@ Vec3 nowhere(const volume::IsoVertices& surface) {
 }
 
 std::unique_ptr<haptics::ToolTouch> touch_of(const volume::IsoVertices& surface,
-                                             const SecondHandSettings& settings, double rate_hz) {
+                                             const SecondHandSettings& settings,
+                                             const ServoSettings& servo) {
   if (!settings.tool) return nullptr;
   haptics::ProxySettings proxy;
-  proxy.slip = settings.slip_m_s / rate_hz;
-  proxy.push_out_speed = kRecovery / rate_hz;
+  proxy.slip = settings.slip_m_s / servo.rate_hz;
+  proxy.push_out_speed = kRecovery / servo.rate_hz;
+  proxy.parts_rub = servo.tool_friction;
   return std::make_unique<haptics::ToolTouch>(surface, settings.tool->tool, proxy, kLever,
                                               math::Pose{nowhere(surface), math::Quat::Identity()});
 }
@@ -76,7 +78,7 @@ SecondHand::SecondHand(const Shared& shared, device::Device& device,
       controls_(controls_of(shared.controls, settings_)),
       proxy_(shared.surface, proxy_settings(settings_, controls_.settings.rate_hz),
              nowhere(shared.surface)),
-      tool_(touch_of(shared.surface, settings_, controls_.settings.rate_hz)),
+      tool_(touch_of(shared.surface, settings_, controls_.settings)),
       hand_(device, proxy_, controls_.settings.force,
             {.rate_hz = controls_.settings.rate_hz,
              .velocity_filter_hz = settings_.velocity_filter_hz,
@@ -110,7 +112,12 @@ bool SecondHand::will_feel() BURR_RT {
     return false;
   }
   hand_.filter_velocity();
-  return hand_.engage();
+  if (!hand_.engage()) return false;
+  if (cutting_) {
+    const double mu = cutting_->friction();
+    tool_->set_friction(mu, controls_.settings.kinetic_share * mu);
+  }
+  return true;
 }
 
 void SecondHand::feel_beside(Hand& first, bool feels) BURR_RT {

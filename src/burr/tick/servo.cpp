@@ -35,6 +35,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
                 {.radius = settings.burr.radius,
                  .wedge = settings.wedge,
                  .slip = settings.slip_m_s / settings.rate_hz,
+                 .parts_rub = settings.tool_friction,
                  .push_out_speed = kRecovery / settings.rate_hz},
                 settings.touch, &controls_.settings.tools, settings.tool),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),
@@ -84,7 +85,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
 
   // then the bone
   cut(touched);
-  outbox_.note_heat(row_.tick, cutting_);
+  outbox_.note_heat(row_.tick, cutting_, second_ != nullptr ? second_->cutting() : nullptr);
   restore_.remember_path();
 
   // and the account of it all

@@ -30,6 +30,14 @@ double reach_of_cutting(const tool::Tool& tool) BURR_RT {
   return reach;
 }
 
+// The least of its widths.  [m]
+double thickness_of(const tool::Part& part) BURR_RT {
+  double least = 1;
+  for (const Vec3& way : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())})
+    least = std::min(least, tool::support(part.shape, way) + tool::support(part.shape, -way));
+  return least;
+}
+
 }  // namespace
 
 const tool::ShapedTool* Cutting::shaped() const BURR_RT {
@@ -91,11 +99,67 @@ bool Cutting::drive_moves(double push) const BURR_RT {
   return blow_left_ > 0;
 }
 
+// How the tool in the hand moves.
+edit::Stroke Cutting::stroke_now() const BURR_RT {
+  const math::Quat turn = hand_.tool_turn();
+  edit::Stroke stroke;
+  stroke.axis = turn * Vec3(Vec3::UnitZ());
+  stroke.hand = hand_.velocity();
+  stroke.speed = spindle_.speed();
+  if (shaped() == nullptr) return stroke;
+  const tool::Cutter& cutter = shaped()->cutter;
+  stroke.way = turn * cutter.way;
+  const double full = tool::full_speed(cutter);
+  if (cutter.drive != tool::Drive::turning && full > 0)
+    stroke.speed = tool::stroke_speed(cutter) * std::abs(spindle_.speed()) / full;
+  return stroke;
+}
+
+// A shaft that turns on bone, the body of a blade that strokes: friction along the spindle's sliding,
+// -mu f v / |v|, with its torque and its heat; that of a stroke is 0 in the mean, but brakes and warms.
+void Cutting::rub(const Vec3& touched) BURR_RT {
+  const haptics::Touch& touch = hand_.touch();
+  const haptics::ToolContact* parts = hand_.parts();
+  const bool moves = shaped() == nullptr || shaped()->cutter.drive != tool::Drive::struck;
+  if (parts == nullptr || !parts->by_part || !parts->rests || !moves || spindle_.speed() == 0 ||
+      !touch.touching || touch.slipping || touch.depth <= 0)
+    return;
+  last_load_ = std::max(0.0, math::dot(touched, touch.normal));
+  const double per_stretch = last_load_ / touch.depth;
+  const tool::Cutter turning;
+  const tool::Cutter& cutter = shaped() == nullptr ? turning : shaped()->cutter;
+  const edit::Stroke stroke = stroke_now();
+  double most = 0;
+  for (int a = 0; a < parts->active; ++a) {
+    const haptics::SixContact& one = parts->contacts[static_cast<std::size_t>(a)];
+    const tool::Part* part = nullptr;
+    if (shaped() != nullptr) part = &shaped()->tool.parts[static_cast<std::size_t>(one.part)];
+    // of a burr the head is the first part
+    if (part != nullptr ? part->role != tool::Role::rubs : one.part == 0) continue;
+    const Vec3 v = edit::surface_velocity(cutter, stroke, one.arm);
+    const Vec3 along = v - math::dot(v, one.normal) * one.normal;
+    const double speed = math::norm(along);
+    if (speed <= 0 || one.load <= 0) continue;
+    const double force = settings_.friction_turning * per_stretch * one.load;
+    rubbing_.power += force * speed;
+    if (cutter.drive == tool::Drive::turning) {
+      const Vec3 drag = -force / speed * along;
+      now_.drag += drag;
+      cut_moment_ += one.arm.cross(drag);
+    }
+    if (one.load <= most) continue;
+    most = one.load;
+    rubbing_.place = hand_.tool() + one.arm;
+    rubbing_.radius = part != nullptr ? thickness_of(*part) / 2 : settings_.burr.radius / 2;
+  }
+  rubbing_.edge = thermal::Edge::rubbing;
+  now_.torque += rubbing_.power / std::abs(spindle_.speed());
+}
+
 // per_stretch: force of a contact over its load  [N/m]
 edit::ElementCutting Cutting::by_elements(double per_stretch) BURR_RT {
   const tool::ShapedTool& tool = *shaped();
   const haptics::ToolContact& parts = *hand_.parts();
-  const math::Quat turn = hand_.tool_turn();
   std::array<edit::ElementContact, 6> contacts;
   std::size_t count = 0;
   double most = 0;
@@ -105,19 +169,14 @@ edit::ElementCutting Cutting::by_elements(double per_stretch) BURR_RT {
     const Vec3 place = hand_.tool() + one.arm;
     const volume::Tissue& tissue = tissue_at(place - 0.5 * bone_.grid().voxel * one.normal);
     contacts[count++] = {one.arm, one.normal, per_stretch * one.load, tissue.cutting_friction};
-    if (one.load > most) warm_place_ = place;
+    if (one.load > most) {
+      warm_place_ = place;
+      warm_radius_ = thickness_of(tool.tool.parts[static_cast<std::size_t>(one.part)]) / 2;
+    }
     most = std::max(most, one.load);
   }
-  edit::Stroke stroke;
-  stroke.axis = turn * Vec3(Vec3::UnitZ());
-  stroke.way = turn * tool.cutter.way;
-  const double full = tool::full_speed(tool.cutter);
-  stroke.speed = tool.cutter.drive == tool::Drive::turning || full <= 0
-                     ? spindle_.speed()
-                     : tool::stroke_speed(tool.cutter) * std::abs(spindle_.speed()) / full;
-  stroke.hand = hand_.velocity();
   edit::ElementCutting cutting = edit::element_law(
-      tool.cutter, stroke, std::span(contacts).first(count), dt_, settings_.removal);
+      tool.cutter, stroke_now(), std::span(contacts).first(count), dt_, settings_.removal);
   if (tool.cutter.drive == tool::Drive::struck) {
     cutting.energy = std::min(blow_left_, tool.cutter.blow_j * dt_ / kBlowTime);
     cutting.power = cutting.energy / dt_;

@@ -10,14 +10,20 @@
 namespace burr::workshop {
 namespace {
 
+constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kOver = 10e-3;  // shortest time over which removal is averaged  [s]
 
 }  // namespace
 
-SoundTracker::SoundTracker(const tick::ServoSettings& settings, ToSpare to_spare)
+SoundTracker::SoundTracker(const tick::ServoSettings& settings, ToSpare to_spare,
+                           const tool::ShapedTool* second)
     : teeth_(settings.burr.teeth), rate_hz_(settings.rate_hz), to_spare_(std::move(to_spare)) {
   for (const tool::ShapedTool& tool : settings.tools)
     tools_.push_back({tool.cutter.teeth, tool.cutter.drive, places_on(tool.tool)});
+  if (second == nullptr) return;
+  tick::ServoSettings others = settings;
+  others.tools = {*second};
+  other_ = std::make_unique<SoundTracker>(others, to_spare_);
 }
 
 // From the surface of what cuts.
@@ -29,7 +35,8 @@ double SoundTracker::distance_of(const tick::TickRow& row, const Tool* tool) con
   return least;
 }
 
-const sound::SoundState& SoundTracker::update(const tick::TickRow& row) {
+const sound::SoundState& SoundTracker::update(const tick::TickRow& row,
+                                              const tick::TickRow* second) {
   now_.spindle_rad_s = row.spindle_rad_s;
   now_.cutting_nm = row.cutting_nm;
   now_.touching = row.contact.touching;
@@ -44,7 +51,14 @@ const sound::SoundState& SoundTracker::update(const tick::TickRow& row) {
   now_.irrigated = row.tool.irrigated;
   if (to_spare_) now_.to_spare = distance_of(row, tool);
 
-  const Account account = {row.tick, row.ledger.removed, row.ledger.energy};
+  Account account = {row.tick, row.ledger.removed, row.ledger.energy};
+  if (other_ && second != nullptr) {
+    static_cast<void>(other_->update(*second));
+    now_.to_spare = std::min(now_.to_spare, std::exchange(other_->now_.to_spare, kFar));
+    // the session's account has what both removed
+    account.removed -= second->ledger.removed;
+    account.energy -= second->ledger.energy;
+  }
   if (!before_ || account.tick < before_->tick) before_ = account;  // the first; a jump back
   const double seconds = static_cast<double>(account.tick - before_->tick) / rate_hz_;
   if (seconds < kOver) return now_;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "burr/tick/rows.h"
 #include "burr/tick/servo.h"
 #include "burr/tool/cutter.h"
+#include "burr/tool/shaped_tool.h"
 
 namespace burr::workshop {
 
@@ -23,10 +25,18 @@ class SoundTracker {
   // Distance from a point to the nearest structure to spare  [m]; empty: there is none.
   using ToSpare = std::function<double(const math::Vec3&)>;
 
-  explicit SoundTracker(const tick::ServoSettings& settings, ToSpare to_spare = {});
+  // second: the tool of the other hand; nullptr: none that sounds.
+  explicit SoundTracker(const tick::ServoSettings& settings, ToSpare to_spare = {},
+                        const tool::ShapedTool* second = nullptr);
 
-  // row: the newest row, or the next one of a recording; rows may be skipped.
-  [[nodiscard]] const sound::SoundState& update(const tick::TickRow& row);
+  // row: the newest row, or the next one of a recording; rows may be skipped. second: of the other
+  // hand, at about the same time. The warning is that of the nearer tool.
+  [[nodiscard]] const sound::SoundState& update(const tick::TickRow& row,
+                                                const tick::TickRow* second = nullptr);
+  // What the other hand's tool sounds like; nullptr: it has none, or there was no row of it.
+  [[nodiscard]] const sound::SoundState* second() const {
+    return other_ && other_->before_ ? &other_->now_ : nullptr;
+  }
 
  private:
   struct Account {
@@ -48,6 +58,7 @@ class SoundTracker {
   ToSpare to_spare_;
   std::optional<Account> before_;
   sound::SoundState now_;
+  std::unique_ptr<SoundTracker> other_;  // of the other hand
 };
 
 }  // namespace burr::workshop

@@ -14,8 +14,9 @@ constexpr double kStep = 3;     // [dB]
 }  // namespace
 
 Loudspeaker::Loudspeaker(const tick::ServoSettings& settings,
-                         workshop::SoundTracker::ToSpare to_spare, double warn_below)
-    : hearing_(settings, std::move(to_spare)), warn_below_(warn_below) {
+                         workshop::SoundTracker::ToSpare to_spare, double warn_below,
+                         const tool::ShapedTool* second)
+    : hearing_(settings, std::move(to_spare), second), warn_below_(warn_below) {
   open();
 }
 
@@ -30,12 +31,14 @@ void Loudspeaker::open() {
 
 double Loudspeaker::loudness() const { return std::pow(10, kStep * steps_ / 20); }
 
-void Loudspeaker::update(const tick::TickRow& newest) {
-  sound::SoundState now = hearing_.update(newest);
+void Loudspeaker::update(const tick::TickRow& newest, const tick::TickRow* second) {
+  sound::SoundState now = hearing_.update(newest, second);
   now.injured = injured_;
   if (!injured_ && !(now.to_spare < warn_below_))
     now.to_spare = std::numeric_limits<double>::infinity();
-  if (speaker_) speaker_->voice().update(now);
+  if (!speaker_) return;
+  speaker_->voice().update(now);
+  if (hearing_.second() != nullptr) speaker_->voice().update_second(*hearing_.second());
 }
 
 void Loudspeaker::toggle() {

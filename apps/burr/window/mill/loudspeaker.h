@@ -17,10 +17,13 @@ namespace burr::app {
 class Loudspeaker {
  public:
   // warn_below: the warning sounds only below this distance to what must not be cut [m]
+  // second: the tool of the other hand; nullptr: none that sounds
   Loudspeaker(const tick::ServoSettings& settings, workshop::SoundTracker::ToSpare to_spare,
-              double warn_below = std::numeric_limits<double>::infinity());
+              double warn_below = std::numeric_limits<double>::infinity(),
+              const tool::ShapedTool* second = nullptr);
 
-  void update(const tick::TickRow& newest);
+  // second: the newest row of the other hand; nullptr: there is none
+  void update(const tick::TickRow& newest, const tick::TickRow* second = nullptr);
   // The burr is in a structure to spare; sounds however near the warning begins.
   void injury(bool is_in) { injured_ = is_in; }
   void toggle();

@@ -63,7 +63,9 @@ void Mill::look_at_session() {
     draw_tool();
     render::show_contact(scene_, row_.hand.world_from_tool.p, row_.contact.proxy,
                          row_.contact.force);
-    if (options_.loudspeaker != nullptr) options_.loudspeaker->update(row_);
+    if (options_.loudspeaker != nullptr)
+      options_.loudspeaker->update(row_,
+                                   hands_.suction != nullptr ? &hands_.suction->now() : nullptr);
   }
   note(drill_.look());
   show_mirror(scene_, session_.bone().grid(), mirror_.now());

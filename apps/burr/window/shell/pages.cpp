@@ -69,9 +69,12 @@ Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& wi
   with.allowed = ready.allowed;
   std::unique_ptr<Loudspeaker> loudspeaker;
   if (window.sound) {
-    loudspeaker =
-        std::make_unique<Loudspeaker>(ready.session->settings().servo,
-                                      ready.spared_distance->distances(), ready.allowed.tone_below);
+    const tick::SecondHand* second = ready.session->second_hand();
+    const tool::ShapedTool* tool =
+        second != nullptr && second->settings().tool ? &*second->settings().tool : nullptr;
+    loudspeaker = std::make_unique<Loudspeaker>(ready.session->settings().servo,
+                                                ready.spared_distance->distances(),
+                                                ready.allowed.tone_below, tool);
     if (!loudspeaker->trouble().empty()) fmt::print(stderr, "{}\n", loudspeaker->trouble());
     with.loudspeaker = loudspeaker.get();
   }

@@ -39,6 +39,10 @@ using TakePoints = bool (*)(const volume::VertexBlock* blocks, int count,
 using MakeRows = void (*)(const NearPoints& near, const float c[3], const PartThere& part,
                           const RowBounds& bounds, Rows& rows) noexcept;
 
+// Appends the places of a part that are nearer to the bone than bounds.p; m is then the place itself,
+// seen from c, times bounds.inverse_L: what friction needs.
+using PressPoints = MakeRows;
+
 // Index of the row that the move z = (p, t) violates most, or -1; `worst` is its value there, below
 // 0. Of equal ones the first.
 using WorstRow = int (*)(const Rows& rows, const float z[6], float& worst) noexcept;
@@ -46,16 +50,19 @@ using WorstRow = int (*)(const Rows& rows, const float z[6], float& worst) noexc
 struct RowKernel {
   TakePoints take;
   MakeRows make;
+  PressPoints press;
   WorstRow worst;
 };
 
-#define BURR_ROW_KERNEL(which)                                                          \
-  namespace which {                                                                     \
-  bool take_points(const volume::VertexBlock*, int, const std::int32_t*, const double*, \
-                   const float*, const PartThere&, float, NearPoints&) noexcept;        \
-  void make_rows(const NearPoints&, const float*, const PartThere&, const RowBounds&,   \
-                 Rows&) noexcept;                                                       \
-  int worst_row(const Rows&, const float*, float&) noexcept;                            \
+#define BURR_ROW_KERNEL(which)                                                           \
+  namespace which {                                                                      \
+  bool take_points(const volume::VertexBlock*, int, const std::int32_t*, const double*,  \
+                   const float*, const PartThere&, float, NearPoints&) noexcept;         \
+  void make_rows(const NearPoints&, const float*, const PartThere&, const RowBounds&,    \
+                 Rows&) noexcept;                                                        \
+  void press_points(const NearPoints&, const float*, const PartThere&, const RowBounds&, \
+                    Rows&) noexcept;                                                     \
+  int worst_row(const Rows&, const float*, float&) noexcept;                             \
   }
 BURR_ROW_KERNEL(scalar)
 BURR_ROW_KERNEL(avx2)

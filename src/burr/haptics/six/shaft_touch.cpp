@@ -31,7 +31,10 @@ ShaftTouch::ShaftTouch(const volume::IsoVertices& surface, const ProxySettings& 
             .push_out_speed = settings.push_out_speed},
            {hand, math::Quat::Identity()}),
       slip_(settings.slip),
-      per_tick_(settings.slip) {}
+      per_tick_(settings.slip),
+      rubs_(settings.parts_rub) {
+  set_friction(settings.friction_static, settings.friction_kinetic);
+}
 
 void ShaftTouch::place(const Vec3& p) BURR_RT {
   ball_.place(p);
@@ -42,6 +45,7 @@ void ShaftTouch::place(const Vec3& p) BURR_RT {
 
 void ShaftTouch::set_friction(double mu_static, double mu_kinetic) BURR_RT {
   ball_.set_friction(mu_static, mu_kinetic);
+  if (rubs_) friction_ = {mu_static, mu_kinetic};
 }
 
 bool ShaftTouch::set_radius(double radius) BURR_RT {
@@ -83,6 +87,7 @@ Touch ShaftTouch::as_ball(const Pose& hand) BURR_RT {
     return touch;
   }
   const Pose goal{touch.proxy, hand.q};
+  six_.set_friction({});  // it follows the head, which has felt its friction
   const SixTouch six = six_.step(goal);
   rests_ = shaft_rests(six) || six.lagging;
   // what the head's discs and the points of six unknowns differ by is rounding
@@ -108,6 +113,7 @@ Touch ShaftTouch::step_pose(const Pose& hand) BURR_RT {
   Touch touch;
   if (!rests_) touch = as_ball(hand);
   if (rests_) {
+    six_.set_friction(friction_);
     const SixTouch six = six_.step(hand);
     touch = as_tool(six);
     contact_.rests = rests_ = contact_.rests || six.lagging;

@@ -5,9 +5,10 @@
 //                                 turns where it must, on a virtual spring of turning k_r = k_t L^2
 //
 // A device that only pushes gets the force; one that can turn the hand gets the torque as well, with
-// springs of its own (couple()). The torque is in ToolContact; so is the head's own share of the contact, with which alone it may cut: the shaft
-// never cuts. While the shaft touches there is no friction, and the stretch of the spring changes no faster
-// than ProxySettings::slip allows: so no step is felt when one proxy takes over from the other.
+// springs of its own (couple()). The torque is in ToolContact; so is the head's own share of the
+// contact, with which alone it may cut: the shaft never cuts. While the shaft touches, friction is
+// that of six_friction.h, and the stretch of the spring changes no faster than ProxySettings::slip
+// allows: so no step is felt when one proxy takes over from the other.
 //
 // A shaft that stands in bone when the burr is put down (a hand that came back, an undo) is not felt
 // until it has been free once.
@@ -67,6 +68,8 @@ class ShaftTouch final : public TouchMethod {
   SlipLimit slip_;
   TurnLimit turn_limit_;
   double per_tick_;        // ProxySettings::slip  [m]
+  bool rubs_;              // ProxySettings::parts_rub
+  Friction friction_;      // while the shaft touches
   double lever_ = kLever;  // L
   bool turns_ = false;     // the torque is felt
 };

@@ -21,6 +21,8 @@ constexpr double kTurnError = 0.02;  // that a turn of one move may err by      
 constexpr int kSuper = 4;            // bricks along the edge of a block of bricks
 constexpr int kRounds = 10;          // guesses of how far a move goes
 constexpr double kRest = 0.1;        // of a move left over that counts as rest       [voxel]
+constexpr double kLayer = 0.1;       // above the bone, that carries a face's load         [voxel]
+constexpr int kHoldMoves = 3;        // to where friction holds the tool
 
 double length3(const Six& z, std::size_t first) BURR_RT {
   return std::sqrt(math::sum_of_three(z[first] * z[first], z[first + 1] * z[first + 1],
@@ -32,10 +34,11 @@ double length3(const Six& z, std::size_t first) BURR_RT {
 RowKernel row_kernel() noexcept {
   if constexpr (rt::kWideKernels) {
     if (rt::simd() == rt::Simd::avx512)
-      return {avx512::take_points, avx512::make_rows, avx512::worst_row};
-    if (rt::simd() == rt::Simd::avx2) return {avx2::take_points, avx2::make_rows, avx2::worst_row};
+      return {avx512::take_points, avx512::make_rows, avx512::press_points, avx512::worst_row};
+    if (rt::simd() == rt::Simd::avx2)
+      return {avx2::take_points, avx2::make_rows, avx2::press_points, avx2::worst_row};
   }
-  return {scalar::take_points, scalar::make_rows, scalar::worst_row};
+  return {scalar::take_points, scalar::make_rows, scalar::press_points, scalar::worst_row};
 }
 
 SixProxy::SixProxy(const volume::IsoVertices& surface, const tool::Tool& tool,
@@ -45,7 +48,9 @@ SixProxy::SixProxy(const volume::IsoVertices& surface, const tool::Tool& tool,
       settings_(settings),
       kernel_(row_kernel()),
       lever_(settings.lever / grid_.voxel),
-      rows_(std::make_unique<Rows>()) {
+      rows_(std::make_unique<Rows>()),
+      places_(std::make_unique<Rows>()),
+      pressed_(std::make_unique<Pressed>()) {
   for (Near& near : near_) near.points = std::make_unique<NearPoints>();
   place(hand);
   take(tool);
@@ -335,7 +340,80 @@ void SixProxy::report(const LeastTwist& last, const Vec3& x, const Quat& q,
   }
 }
 
+// Which places of the tool press, and how hard. False: too many.
+bool SixProxy::press(const LeastTwist& last, const Six& wanted) BURR_RT {
+  Six pushed = {};
+  double load = 0;
+  std::array<Six, 6> rows = {};
+  for (int a = 0; a < last.active; ++a) {
+    const int j = last.index[a];
+    Six& row = rows[static_cast<std::size_t>(a)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      row[k] = static_cast<double>(rows_->n[k][j]);
+      row[k + 3] = static_cast<double>(rows_->m[k][j]);
+    }
+    for (std::size_t k = 0; k < 6; ++k) pushed[k] += last.push[a] * row[k];
+    load += last.push[a];
+  }
+  rest_on(std::span<const Six>(rows).first(static_cast<std::size_t>(last.active)), *pressed_);
+  if (settings_.wedge > 0) load = std::min(load, settings_.wedge * std::sqrt(dot6(wanted, wanted)));
+  places_->count = 0;
+  places_->full = false;
+  const RowBounds bounds = {static_cast<float>(kLayer), 0, static_cast<float>(1 / lever_)};
+  for (int part = 0; part < tool_.count; ++part) {
+    if (tool_.parts[index(part)].role == tool::Role::seen) continue;
+    const double need = kLayer + 0.01;
+    if (!still_holds(part, need) && !look_around(part, need + kSkin / grid_.voxel)) return false;
+    const Near& near = near_[index(part)];
+    const Vec3 offset = c_ - near.centre;
+    const float c[3] = {static_cast<float>(offset.x()), static_cast<float>(offset.y()),
+                        static_cast<float>(offset.z())};
+    kernel_.press(*near.points, c, there(part), bounds, *places_);
+    if (places_->full) return false;
+  }
+  share_load(*places_, kLayer, pushed, load, *pressed_);
+  return true;
+}
+
+// From where it would rest to where friction holds it, as far as the bone lets it. before: the pose
+// of the tick before, in the grid.
+void SixProxy::rub(const LeastTwist& last, const math::Pose& before, const Vec3& x, const Quat& q,
+                   SixTouch& touch) BURR_RT {
+  const Grip was = grip_;
+  grip_ = {};
+  if (touch.active == 0 || !last.solved || !(friction_.sticks > 0)) return;
+  if (!press(last, wanted(x, q))) return;
+  const Vec3 c = c_;
+  const Grip held = hold(*pressed_, friction_, wanted(before.p, before.q), was);
+  // held whole it goes back to where it was; while it slides the springs are at their least energy, with
+  // this push, as if the hand were there
+  const math::Pose from = held.whole ? math::Pose{c, r_} : math::Pose{x, q};
+  const math::Pose goal{from.p + Vec3(held.f[0], held.f[1], held.f[2]),
+                        math::turned(from.q, Vec3(held.f[3], held.f[4], held.f[5]) / lever_)};
+  Limits guess = {1.1 * length3(held.f, 0), 1.1 * length3(held.f, 3) / lever_};
+  for (int moves = 0; moves < kHoldMoves; ++moves) {
+    bool cut_short = false;
+    const LeastTwist to = move(wanted(goal.p, goal.q), guess, cut_short, touch);
+    if (!to.solved) break;
+    go(to.z);
+    if (!cut_short && std::sqrt(dot6(to.z, to.z)) < settings_.close / grid_.voxel) break;
+  }
+  grip_ = held;
+  touch.stuck = held.stuck;
+  const Quat& frame = grid_.frame.q;
+  touch.held = frame * Vec3((c_ - c) * grid_.voxel);
+  touch.world_from_tool = pose();
+  const Vec3 without = touch.turn;
+  touch.turn = frame * math::rotation_vector(math::product(r_, q.conjugate()));
+  touch.held_turn = touch.turn - without;
+  touch.stretch = frame * Vec3((c_ - x) * grid_.voxel);
+  // the contacts are those of the rest without friction, seen from where the tool is now
+  for (int a = 0; a < touch.active; ++a)
+    touch.contacts[static_cast<std::size_t>(a)].arm -= touch.held;
+}
+
 SixTouch SixProxy::step(const math::Pose& hand) BURR_RT {
+  const math::Pose before{c_, r_};
   const Vec3 x = grid_.grid_from_world(hand.p);
   const Quat q = math::normalized(math::product(grid_.frame.q.conjugate(), hand.q));
   SixTouch touch;
@@ -354,6 +432,7 @@ SixTouch SixProxy::step(const math::Pose& hand) BURR_RT {
   }
   touch.lagging = !last.solved || cut_short || (last.active > 0 && left > kRest);
   report(last, x, q, touch);
+  rub(last, before, x, q, touch);
   return touch;
 }
 

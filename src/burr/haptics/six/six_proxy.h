@@ -10,6 +10,9 @@
 // so a straight move between two free places is free; a turn by theta errs by theta^2 l / 2 at the
 // lever l, so a turn is kept below 10 mrad and what it errs is taken back by the next move.
 //
+// With friction the tool rests where friction holds it, as near as may be to where it was a tick ago
+// (six_friction.h); without it V is least.
+//
 // The coupling point c is the origin of the tool. Thread: servo. Frame: world in arguments and
 // results. Memory: taken at construction. Formulas: docs/touch.md, "Six unknowns". Method: a proxy
 // as in Ortega, Redon & Coquillart 2007; the solver is Goldfarb & Idnani 1983.
@@ -20,6 +23,7 @@
 
 #include "burr/haptics/six/least_twist.h"
 #include "burr/haptics/six/row_kernel.h"
+#include "burr/haptics/six/six_friction.h"
 #include "burr/haptics/tool_contact.h"
 #include "burr/math/pose.h"
 #include "burr/rt/rt.h"
@@ -35,6 +39,8 @@ struct SixSettings {
   double longest = 1e-3;         // of a move                                               [m]
   double most_turn = 10e-3;      // of a move                                             [rad]
   double push_out_speed = 5e-3;  // of bone that grew under the tool                 [voxel/tick]
+  // Friction counts at most so many times the spring's length, as ProxySettings::wedge; 0: no limit
+  double wedge = 2;
 };
 
 struct SixTouch {
@@ -44,6 +50,9 @@ struct SixTouch {
                                             // [rad]
   int active = 0;
   std::array<SixContact, 6> contacts;
+  // The part of `stretch` and of `turn` with which friction holds the tool.
+  math::Vec3 held = math::Vec3::Zero(), held_turn = math::Vec3::Zero();  // [m], [rad]
+  bool stuck = false;                                                    // friction holds it
   int candidates = 0;
   int moves = 0;
   bool lagging = false;   // did not catch up with the hand
@@ -70,6 +79,8 @@ class SixProxy {
   [[nodiscard]] const tool::Tool& tool() const BURR_RT { return tool_; }
   // Fewer moves take less time; the tool then lags behind a fast hand, but is never in bone.
   void set_max_moves(int moves) BURR_RT { settings_.max_moves = moves; }
+  // Of the tool on the bone; 0: none.
+  void set_friction(const Friction& friction) BURR_RT { friction_ = friction; }
   // Another spring of turning: L  [m]
   void set_lever(double lever) BURR_RT {
     settings_.lever = lever;
@@ -104,6 +115,9 @@ class SixProxy {
   [[nodiscard]] math::Vec3 arm_of(int part, const math::Vec3& normal, const math::Vec3& across,
                                   double gap) const BURR_RT;
   void go(const Six& z) BURR_RT;
+  void rub(const LeastTwist& last, const math::Pose& before, const math::Vec3& x,
+           const math::Quat& q, SixTouch& touch) BURR_RT;
+  [[nodiscard]] bool press(const LeastTwist& last, const Six& wanted) BURR_RT;
   void report(const LeastTwist& last, const math::Vec3& x, const math::Quat& q,
               SixTouch& touch) const BURR_RT;
 
@@ -122,6 +136,10 @@ class SixProxy {
   std::array<Near, tool::Tool::kMostParts> near_;
   std::array<int, tool::Tool::kMostParts + 1> first_row_{};  // of each part
   std::unique_ptr<Rows> rows_;
+  Friction friction_;
+  Grip grip_;  // of the last tick
+  std::unique_ptr<Rows> places_;
+  std::unique_ptr<Pressed> pressed_;
 };
 
 }  // namespace burr::haptics

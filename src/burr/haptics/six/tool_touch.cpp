@@ -17,9 +17,14 @@ Touch touch_of(const SixTouch& six, const tool::Tool& tool, double lever,
   touch.candidates = six.candidates;
   touch.lagging = six.lagging;
   touch.overflow = six.overflow;
-  touch.depth = math::norm(six.stretch);
+  const Vec3 pressed = six.stretch - six.held;
+  touch.depth = math::norm(pressed);
   touch.touching = (six.active > 0 || six.meets) && touch.depth > 1e-12;
-  if (touch.touching) touch.normal = six.stretch / touch.depth;
+  if (touch.touching) {
+    touch.normal = pressed / touch.depth;
+    touch.tangential = six.held;
+  }
+  touch.stuck = six.stuck;
   for (int a = 0; a < six.active; ++a) {
     const SixContact& one = six.contacts[static_cast<std::size_t>(a)];
     touch.pressing += one.load;
@@ -55,7 +60,10 @@ ToolTouch::ToolTouch(const volume::IsoVertices& surface, const tool::Tool& tool,
       slip_(settings.slip),
       per_tick_(settings.slip),
       lever_(lever),
-      pose_(hand) {}
+      rubs_(settings.parts_rub),
+      pose_(hand) {
+  set_friction(settings.friction_static, settings.friction_kinetic);
+}
 
 void ToolTouch::take(const tool::Tool& tool) BURR_RT {
   six_.take(tool);

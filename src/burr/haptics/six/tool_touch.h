@@ -1,8 +1,8 @@
 // haptics/six/tool_touch.h - a tool of any shape in the hand: all its parts touch, by the proxy of six
 // unknowns (six_proxy.h), as a method of touch.
 //
-// There is no friction. The stretch changes no faster than ProxySettings::slip allows, while a contact
-// holds and until the spring has caught up.
+// Friction holds it along the bone and about any axis (six_friction.h). The stretch changes no faster
+// than ProxySettings::slip allows, while a contact holds and until the spring has caught up.
 //
 // Thread: servo. Frame: world. Memory: taken at construction.
 #pragma once
@@ -16,7 +16,7 @@ namespace burr::haptics {
 
 class ToolTouch final : public TouchMethod {
  public:
-  // settings: radius and friction are not used. lever: L = sqrt(k_r / k_t)  [m]
+  // settings: radius is not used. lever: L = sqrt(k_r / k_t)  [m]
   ToolTouch(const volume::IsoVertices& surface, const tool::Tool& tool,
             const ProxySettings& settings, double lever, const math::Pose& hand);
 
@@ -35,7 +35,9 @@ class ToolTouch final : public TouchMethod {
   [[nodiscard]] SixProxy* six() BURR_RT override { return &six_; }
   [[nodiscard]] Touch felt(const SixTouch& six, const math::Pose& hand) BURR_RT override;
   [[nodiscard]] const ToolContact* parts() const BURR_RT override { return &contact_; }
-  void set_friction(double, double) BURR_RT override {}
+  void set_friction(double mu_static, double mu_kinetic) BURR_RT override {
+    if (rubs_) six_.set_friction({mu_static, mu_kinetic});
+  }
   [[nodiscard]] bool set_radius(double) BURR_RT override { return false; }
   void set_max_moves(int moves) BURR_RT { six_.set_max_moves(moves); }
   // The hand feels the torque: L of the springs that it really has (safety/coupling.h)  [m]
@@ -51,6 +53,7 @@ class ToolTouch final : public TouchMethod {
   TurnLimit turn_limit_;
   double per_tick_;  // ProxySettings::slip  [m]
   double lever_;
+  bool rubs_;           // ProxySettings::parts_rub
   bool turns_ = false;  // the torque is felt
   math::Pose pose_;
   bool follows_ = false;  // the stretch is limited
