@@ -111,11 +111,39 @@ TEST(ShapeGrid, ItsBoxHoldsTheBodyAndIsTight) {
   const math::Aabb box = bounds(grid_shape(*grid));
   const Vec3 half(1, 2, 3);
   for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_GE(box.hi[axis], half[axis] - 1e-9);
-    EXPECT_LE(box.hi[axis], half[axis] + grid->cell);
-    EXPECT_LE(box.lo[axis], -half[axis] + 1e-9);
-    EXPECT_GE(box.lo[axis], -half[axis] - grid->cell);
+    EXPECT_GE(box.hi[axis], half[axis] - 0.01 * grid->cell);  // 256ths of a cell
+    EXPECT_LE(box.hi[axis], half[axis] + 0.01 * grid->cell);
+    EXPECT_LE(box.lo[axis], -half[axis] + 0.01 * grid->cell);
+    EXPECT_GE(box.lo[axis], -half[axis] - 0.01 * grid->cell);
   }
+}
+
+// A tip of ten degrees ends between the nodes: the box holds all places where the field is 0.
+TEST(ShapeGrid, ItsBoxHoldsASharpTip) {
+  const auto grid = grid_of(turned({{0, 0}, {1, 5.7}, {0, 6}}, 96), 0.17);
+  ASSERT_TRUE(grid.ok());
+  const Shape shape = grid_shape(*grid);
+  const math::Aabb box = bounds(shape);
+  std::mt19937 random(19);
+  std::uniform_real_distribution<double> across(-1.2, 1.2), along(-3.5, 3.5);
+  double lowest = 0;
+  for (int n = 0; n < 200'000; ++n) {
+    const Vec3 p(0.05 * across(random), 0.05 * across(random), along(random));
+    if (distance(shape, p).phi > 0) continue;
+    lowest = std::min(lowest, p.z());
+    EXPECT_TRUE(((p - box.lo).array() >= -1e-9).all() && ((box.hi - p).array() >= -1e-9).all());
+  }
+  EXPECT_NEAR(lowest, box.lo.z(), 0.1);
+}
+
+// The middle of the lattice is on the axis about which the tool turns.
+TEST(ShapeGrid, OfATurningToolIsEvenAboutItsAxis) {
+  const auto grid = grid_of(box_mesh({1, 1, 2}, {0.5, 0, 3}), 0, true);
+  ASSERT_TRUE(grid.ok());
+  EXPECT_NEAR(grid->middle.x(), 0, 1e-12);
+  EXPECT_NEAR(grid->middle.y(), 0, 1e-12);
+  EXPECT_NEAR(grid->middle.z(), 3, 1e-12);
+  EXPECT_NEAR(bounds(grid_shape(*grid)).hi.x(), 1.5, grid->cell);
 }
 
 TEST(ShapeGrid, EqualLatticesAreKeptOnceAndComeBackWhole) {
@@ -181,6 +209,20 @@ TEST(ShapeGrid, AMeshThatIsNoBodyIsRefusedWithAReason) {
   Triangles far = ball_mesh(2);
   far.faces[3][0] = 1'000'000;
   EXPECT_NE(why(far, 0).find("does not have"), std::string::npos);
+  const auto and_box = [](const Vec3& half, const Vec3& middle, bool inwards) {
+    Triangles two = box_mesh({1, 1, 1}, Vec3::Zero());
+    const auto first = static_cast<std::uint32_t>(two.points.size());
+    for (const Vec3& point : box_mesh(half, middle).points) two.points.push_back(point);
+    for (auto face : box_mesh(half, middle).faces) {
+      if (inwards) std::swap(face[1], face[2]);
+      two.faces.push_back({first + face[0], first + face[1], first + face[2]});
+    }
+    return two;
+  };
+  EXPECT_NE(why(and_box({1, 1, 1}, {1, 0.2, 0.1}, false), 0).find("overlap"), std::string::npos);
+  EXPECT_NE(why(and_box({0.5, 0.5, 0.5}, {3, 0, 0}, true), 0).find("inwards"), std::string::npos);
+  EXPECT_EQ(why(and_box({0.5, 0.5, 0.5}, {3, 0, 0}, false), 0), "");
+  EXPECT_EQ(why(and_box({0.5, 0.5, 0.5}, {0, 0, 0}, true), 0), "") << "a hollow";
   EXPECT_NE(why({}, 0).find("no triangles"), std::string::npos);
   EXPECT_NE(why(ball_mesh(2), 0.001).find("larger"), std::string::npos);
   EXPECT_NE(why(box_mesh({5, 5, 0.01}, Vec3::Zero()), 0.5).find("thinner"), std::string::npos);

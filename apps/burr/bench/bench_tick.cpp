@@ -281,12 +281,16 @@ void add(CLI::App& bench, app::Todo& todo) {
   command->add_option("--rate", options->rate_hz, "ticks a second")
       ->check(CLI::Range(500.0, 10000.0))
       ->capture_default_str();
-  auto tool = std::make_shared<std::string>();
-  command->add_option("--tool", *tool,
-                      "with this tool of the rack, in the five scenes of `burr bench tool`");
   command->add_flag("--evict", options->evict,
                     "read 64 MiB between ticks, so that the caches are cold");
-  command->add_flag("--json", options->json, "one JSON object on the last line");
+  auto tool = std::make_shared<std::string>();
+  auto* with_tool = command->add_option(
+      "--tool", *tool, "with this tool of the rack, in the five scenes of `burr bench tool`");
+  for (const char* other : {"--shape", "--touch", "--removal", "--sink-mm", "--burr-mm",
+                            "--depth-mm", "--speed-mm-s", "--rate", "--evict"})
+    with_tool->excludes(other);  // those of the scene with one ball
+  command->add_flag("--json", options->json,
+                    "one JSON object on the last line; with --tool an array of them");
   command->callback([options, tool, command, &todo] {
     if (tool->empty()) {
       todo.work = [options] { return run(*options); };

@@ -16,7 +16,11 @@ using volume::kBrickEdge;
 static_assert(kMostKernelParts == tool::Tool::kMostParts);
 
 // Where a turning part is as fast as the tool's fastest place: its largest radius.  [voxel]
-double widest(const tool::Shape& shape) BURR_RT { return tool::support(shape, Vec3::UnitX()); }
+double widest(const tool::Shape& shape) BURR_RT {
+  const double along_x = tool::support(shape, Vec3::UnitX());
+  if (shape.kind != tool::ShapeKind::grid) return along_x;
+  return std::max(along_x, tool::support(shape, Vec3::UnitY()));
+}
 
 // From the middle of a brick to its farthest voxel.  [voxel]
 const double kHalfBrick = std::sqrt(3.0) * 0.5 * (kBrickEdge - 1);

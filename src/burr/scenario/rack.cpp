@@ -96,6 +96,7 @@ const struct {
 struct Meshes {
   const MeshReader& read;
   const std::string& folder;
+  bool turn = false;  // the tool that they belong to turns
 };
 
 std::optional<std::size_t> shape_named(Reader& reader) {
@@ -182,6 +183,7 @@ void read_mesh_part(Reader& reader, const Meshes& meshes, tool::Part& part) {
   wish.path = (std::filesystem::path(meshes.folder) / file).string();
   wish.m_per_unit = kMm * mm_per_unit;
   wish.cell_m = kMm * cell_mm;
+  wish.turns = meshes.turn;
   if (!meshes.read) return reader.fail("shape", "\"mesh\" is not possible here");
   const auto made = meshes.read(wish);
   if (!made) return reader.fail("file", made.error().text);
@@ -285,7 +287,11 @@ void read_tool(Reader& reader, const Meshes& meshes, Rack& rack) {
   reader.number("lean_deg", lean_deg, 0, 90);
   out.lean = lean_deg * std::numbers::pi / 180;
   reader.each(
-      "part", [&](Reader& inner) { read_part(inner, meshes, out.tool); },
+      "part",
+      [&](Reader& inner) {
+        read_part(inner, {meshes.read, meshes.folder, out.cutter.drive == Drive::turning},
+                  out.tool);
+      },
       static_cast<std::size_t>(tool::Tool::kMostParts));
   const auto* end = out.tool.parts.begin() + out.tool.count;
   if (std::none_of(out.tool.parts.cbegin(), end,

@@ -46,6 +46,7 @@ struct MeshWish {
   std::string path;
   double m_per_unit = 1e-3;  // of the file's lengths
   double cell_m = 0;         // 0: chosen by the size
+  bool turns = false;        // about the z axis of the file
 };
 struct MeshShape {
   tool::Shape shape;

@@ -47,7 +47,13 @@ PieceMover::~PieceMover() {
 
 void PieceMover::run() {
   // Reads the whole bone once, here and not where the page opens. What is in pieces already is no news.
-  while (finder_.update() > 0) std::this_thread::yield();
+  while (finder_.update() > 0) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (stopping_) return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   known_ = finder_.pieces();
   for (;;) {
     std::optional<edit::PieceMove> move;

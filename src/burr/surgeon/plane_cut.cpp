@@ -157,7 +157,12 @@ Result<HandPath> cut_along(const volume::Bone& bone, const CutPlane& plane, cons
   if (blade.plunges) {
     const double stride = std::max(0.5 * blade.width, blade.width - kOverlap);
     const int places = 1 + static_cast<int>(std::ceil(2 * reach / stride - 1e-9));
-    const double each = seconds / places - 2 * kWay;
+    const double each = seconds / places - 3 * kWay;
+    if (!(each > 0))
+      return error(
+          Trouble::usage,
+          fmt::format("--seconds {}: this blade goes in at {} places; give more than {:.0f}",
+                      seconds, places, std::ceil(3 * kWay * places)));
     for (int n = 0; n < places; ++n) {
       const double side = places > 1 ? middle - reach + 2 * reach * n / (places - 1) : middle;
       go(kWay, side, top + kAbove, 1);

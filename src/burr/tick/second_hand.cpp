@@ -64,6 +64,7 @@ std::unique_ptr<haptics::ToolTouch> touch_of(const volume::IsoVertices& surface,
   proxy.slip = settings.slip_m_s / servo.rate_hz;
   proxy.push_out_speed = kRecovery / servo.rate_hz;
   proxy.parts_rub = servo.tool_friction;
+  proxy.wedge = servo.wedge;
   return std::make_unique<haptics::ToolTouch>(surface, settings.tool->tool, proxy, kLever,
                                               math::Pose{nowhere(surface), math::Quat::Identity()});
 }

@@ -67,6 +67,10 @@ class Maker {
     inside_.assign(nodes, 0);
   }
 
+  // Of all nodes: how often the surface is wound round them.
+  [[nodiscard]] int least() const { return least_; }
+  [[nodiscard]] int most() const { return most_; }
+
   bool make(MeshGrid& out) {
     for (std::uint32_t face = 0; face < mesh_.faces.size(); ++face) splat(face);
     for (int pass = 0; pass < 2; ++pass)
@@ -159,6 +163,8 @@ class Maker {
           while (next < row.size() && row[next].first < first_.x() + cell_ * x)
             wound += row[next++].second;
           inside_[place(x, y, z)] = static_cast<char>(wound > 0);
+          least_ = std::min(least_, wound);
+          most_ = std::max(most_, wound);
         }
         if (wound != 0) return false;
       }
@@ -207,6 +213,7 @@ class Maker {
   std::vector<double> distance_;
   std::vector<std::uint32_t> nearest_;
   std::vector<char> inside_;
+  int least_ = 0, most_ = 0;
 };
 
 }  // namespace
@@ -218,7 +225,7 @@ double volume_inside(const Triangles& mesh) {
   return sum / 6;
 }
 
-Result<MeshGrid> grid_of(const Triangles& mesh, double cell) {
+Result<MeshGrid> grid_of(const Triangles& mesh, double cell, bool turns) {
   if (mesh.faces.empty()) return error("has no triangles");
   for (const Vec3& p : mesh.points)
     if (!p.allFinite()) return error("has a point that is not a number");
@@ -234,6 +241,10 @@ Result<MeshGrid> grid_of(const Triangles& mesh, double cell) {
       hi = hi.cwiseMax(mesh.points[n]);
     }
   if (!(volume > 0) || !((hi - lo).minCoeff() > 0)) return error("holds no volume");
+  for (int axis = 0; turns && axis < 2; ++axis) {
+    hi[axis] = std::max(std::abs(lo[axis]), std::abs(hi[axis]));
+    lo[axis] = -hi[axis];
+  }
 
   MeshGrid out;
   const bool chosen = cell > 0;
@@ -255,8 +266,12 @@ Result<MeshGrid> grid_of(const Triangles& mesh, double cell) {
   }
   out.middle = 0.5 * (lo + hi);
   const Vec3 first = out.middle - 0.5 * out.cell * Vec3(size[0] - 1, size[1] - 1, size[2] - 1);
-  if (!Maker(outwards, first, out.cell, size).make(out))
-    return error("crosses itself in a way that leaves no inside");
+  Maker maker(outwards, first, out.cell, size);
+  if (!maker.make(out)) return error("crosses itself in a way that leaves no inside");
+  if (maker.most() > 1)
+    return error("has parts that overlap; join them to one body with another program");
+  if (maker.least() < 0)
+    return error("has a part whose faces look inwards; turn them with another program");
   const ShapeGrid* kept = keep_grid(out.cells);
   if (kept == nullptr) return error("is thinner than a cell; give a smaller cell");
   const GridSurface surface = surface_of(*kept);

@@ -1,6 +1,6 @@
 // tool/grid_of_mesh.h - the distances to a closed mesh of triangles, on a lattice.
 //
-// Sign: crossings of rows along x, counted with their direction, so parts that overlap are one body.
+// Sign: crossings of rows along x, counted with their direction.
 // Size: exact near the triangles; farther away, the distance to the triangle that is nearest to a
 // neighbour (Bridson, Fluid Simulation for Computer Graphics, 2008, on level sets from meshes).
 //
@@ -33,7 +33,8 @@ struct MeshGrid {
 };
 
 // `cell`: edge of a cell; 0: a 64th of the longest side, or more where that takes too many nodes.
+// `turns`: the middle of the lattice lies on the mesh's z axis, about which the tool turns.
 // Error: a sentence that goes on after "the mesh ": "has 12 open edges; close it".
-[[nodiscard]] Result<MeshGrid> grid_of(const Triangles& mesh, double cell);
+[[nodiscard]] Result<MeshGrid> grid_of(const Triangles& mesh, double cell, bool turns = false);
 
 }  // namespace burr::tool

@@ -62,17 +62,25 @@ bool is_body(const GridCells& cells) {
   return good && inside;
 }
 
-// The box around all places where the distance is 0, and the deepest node.
+// The box around all places where the linear field is 0: it is farthest on the lattice's edges. And the
+// deepest node.
 void measure(const GridCells& cells, ShapeGrid& grid) {
   const Vec3 middle = 0.5 * Vec3(cells.size[0] - 1, cells.size[1] - 1, cells.size[2] - 1);
   Vec3 lo = middle, hi = -middle;
   each_node(cells, [&](int x, int y, int z, int value) {
     if (value > 0) return;
-    const Vec3 at = Vec3(x, y, z) - middle;
-    // the surface lies within its distance of a node inside, and no farther than the next node
-    const double reach = std::min(1.0, -1.0 * value / kPerCell + 1.0 / kPerCell);
-    lo = lo.cwiseMin(at - Vec3::Constant(reach));
-    hi = hi.cwiseMax(at + Vec3::Constant(reach));
+    const std::array<int, 3> ijk = {x, y, z};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const int way : {-1, 1}) {  // no node inside is at the border
+        std::array<int, 3> next = ijk;
+        next[axis] += way;
+        const double other = cells.phi[node(cells.size, next[0], next[1], next[2])];
+        const double reach = other > 0 ? -value / (other - value) : 0;
+        const int at_axis = static_cast<int>(axis);
+        const double end = ijk[axis] + way * reach - middle[at_axis];
+        lo[at_axis] = std::min(lo[at_axis], end);
+        hi[at_axis] = std::max(hi[at_axis], end);
+      }
     grid.deepest = std::max(grid.deepest, -1.0 * value / kPerCell);
   });
   for (int axis = 0; axis < 3; ++axis) {

@@ -18,7 +18,7 @@ Result<scenario::MeshShape> mesh_shape(const scenario::MeshWish& wish) {
   tool::Triangles mesh;
   mesh.faces = read->faces;
   for (const math::Vec3& p : read->points) mesh.points.emplace_back(wish.m_per_unit * p);
-  const auto grid = tool::grid_of(mesh, wish.cell_m);
+  const auto grid = tool::grid_of(mesh, wish.cell_m, wish.turns);
   if (!grid) return error(fmt::format("{}: the mesh {}", name, grid.error().text));
   const double whole = std::abs(tool::volume_inside(mesh));
   if (std::abs(grid->volume - whole) > kMostVolumeOff * whole)

@@ -13,10 +13,11 @@ using math::Vec3;
 namespace {
 
 // device: of this row's hand.
-PieceMode::Carrier carrier(const tick::TickRow& row, const device::DeviceSpec& device) {
+PieceMode::Carrier carrier(const tick::TickRow& row, const device::DeviceSpec& device, int which) {
   constexpr int kOrientation = 6;  // degrees of freedom
   const bool there = row.hand.valid && (row.hand.buttons & device::kLifted) == 0;
-  return {row.hand.world_from_tool, there && row.hand.pedal > 0, device.sensed >= kOrientation};
+  return {row.hand.world_from_tool, there && row.hand.pedal > 0, device.sensed >= kOrientation,
+          which};
 }
 
 }  // namespace
@@ -32,19 +33,21 @@ void Mill::look_at_pieces() {
 // still and only touches.
 void Mill::carry_piece() {
   const bool rests = has_piece() && hands_.real != nullptr;
-  if (rests && !mode_before_) {
-    mode_before_ = drill_.mode();
+  if (rests && (!mode_before_ || drill_.mode() != tick::ToolMode::touch)) {
+    mode_before_ = drill_.mode();  // or one that was chosen meanwhile: for afterwards
     static_cast<void>(drill_.set_mode(tick::ToolMode::touch));
     session_.command({tick::CommandKind::spindle_speed, 0});
-  } else if (!rests && mode_before_) {
+  } else if (rests && row_.tool.full_speed != 0) {  // another tool or speed was chosen meanwhile
+    session_.command({tick::CommandKind::spindle_speed, 0});
+  } else if (!rests && mode_before_ && !(row_.hand.pedal > 0)) {  // not while the button is down
     static_cast<void>(drill_.set_mode(*std::exchange(mode_before_, {})));
     session_.command({tick::CommandKind::spindle_speed, drill_.full_speed()});
   }
   if (!has_piece()) return;
   PieceMode::Carrier by;
-  if (rests) by = carrier(row_, hands_.real->spec());
+  if (rests) by = carrier(row_, hands_.real->spec(), 0);
   if (other_hand_carries() && !by.grabs)
-    by = carrier(hands_.suction->now(), hands_.suction->hand().spec());
+    by = carrier(hands_.suction->now(), hands_.suction->hand().spec(), 1);
   pieces_->carry(by);
 }
 

@@ -146,7 +146,8 @@ void PieceMode::carry(const Carrier& by) {
     return;
   }
   if (!taken.may_grab) return;
-  if (!taken.grip) taken.grip = {by.hand.p, taken.by, by.hand.q, taken.turn};
+  if (taken.grip && taken.grip->which != by.which) taken.grip.reset();  // the other hand takes over
+  if (!taken.grip) taken.grip = {by.hand.p, taken.by, by.hand.q, taken.turn, by.which};
   const Taken::Grip& grip = *taken.grip;
   taken.by = grip.by + (by.hand.p - grip.hand);
   if (by.turns)

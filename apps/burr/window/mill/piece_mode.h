@@ -48,6 +48,7 @@ class PieceMode {
   struct Carrier {
     math::Pose hand;
     bool grabs = false, turns = false;
+    int which = 0;  // 0: the first hand, 1: the second
   };
   void carry(const Carrier& by);
   [[nodiscard]] bool carried() const { return taken_ && taken_->grip; }
@@ -69,6 +70,7 @@ class PieceMode {
     struct Grip {                                     // when the hand grabbed
       math::Vec3 hand = math::Vec3::Zero(), by = math::Vec3::Zero();
       math::Quat held = math::Quat::Identity(), turn = math::Quat::Identity();
+      int which = 0;
     };
     std::optional<Grip> grip;
     bool may_grab = false;  // no hand grabbed since it was taken

@@ -306,11 +306,15 @@ Vec3 SixProxy::arm_of(int part, const Vec3& normal, const Vec3& across, double g
   const double far = far_[index(part)] + 2;
   if (tool::convex(one.shape.kind)) return across + (phi(-far) - far) * normal;
   double best = 0, least = far;
-  for (double along = -far; along <= far; along += 0.25) {
-    const double off = std::abs(phi(along));
+  const bool skips = one.shape.kind == tool::ShapeKind::grid;
+  for (double along = -far; along <= far;) {
+    const double here = along, off = std::abs(phi(here));
+    // no look nearer than off - least can be better: a distance changes by no more than the way. A
+    // grid's is linear in each cell and may change up to sqrt(3) times as fast
+    along += skips ? 0.25 * std::max(1.0, std::floor(2 * (off - least))) : 0.25;
     if (off >= least) continue;
     least = off;
-    best = along;
+    best = here;
   }
   return across + best * normal;
 }

@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <system_error>
 #include <tuple>
 
@@ -46,7 +48,8 @@ Result<std::string> bytes_of(const fs::path& path, const std::string& name) {
   return bytes;
 }
 
-TriangleMesh joined(const aiScene& scene) {
+// Nothing: a place that is not a number.
+std::optional<TriangleMesh> joined(const aiScene& scene) {
   TriangleMesh out;
   std::map<std::tuple<float, float, float>, std::uint32_t> known;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -57,6 +60,7 @@ TriangleMesh joined(const aiScene& scene) {
       std::array<std::uint32_t, 3> corners;
       for (unsigned n = 0; n < 3; ++n) {
         const aiVector3D& p = mesh.mVertices[face.mIndices[n]];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return std::nullopt;
         const auto next = static_cast<std::uint32_t>(out.points.size());
         const auto [at, is_new] = known.try_emplace({p.x, p.y, p.z}, next);
         if (is_new) out.points.emplace_back(p.x, p.y, p.z);
@@ -90,9 +94,10 @@ Result<TriangleMesh> read_mesh(const std::string& path) {
   if (scene == nullptr)
     return error(fmt::format("{}: this is no {} mesh ({})", name, kind,
                              base::printable(importer.GetErrorString())));
-  TriangleMesh mesh = joined(*scene);
-  if (mesh.faces.empty()) return error(fmt::format("{}: the mesh has no triangles", name));
-  return mesh;
+  std::optional<TriangleMesh> mesh = joined(*scene);
+  if (!mesh) return error(fmt::format("{}: the mesh has a point that is not a number", name));
+  if (mesh->faces.empty()) return error(fmt::format("{}: the mesh has no triangles", name));
+  return *std::move(mesh);
 }
 
 }  // namespace burr::io
