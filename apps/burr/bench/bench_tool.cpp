@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/bench.h"
@@ -25,6 +26,7 @@
 #include "burr/rt/simd.h"
 #include "burr/scenario/rack.h"
 #include "burr/tick/servo.h"
+#include "burr/workshop/mesh_shape.h"
 #include "commands/json_line.h"
 
 namespace {
@@ -196,7 +198,12 @@ Result<nlohmann::json> measure(const Options& options, const scenario::RackTool&
 }  // namespace
 
 Status burr::app::bench_tools(const ToolBench& options) {
-  const scenario::Rack& rack = scenario::built_in_rack();
+  scenario::Rack rack = scenario::built_in_rack();
+  if (!options.tools.empty()) {
+    auto read = scenario::read_rack(options.tools, workshop::mesh_shape);
+    if (!read) return read.error();
+    rack = std::move(*read);
+  }
   std::vector<scenario::RackTool> tools = rack.all;
   if (options.tool != "all") {
     const auto named = rack.get(options.tool);
@@ -236,6 +243,7 @@ void add(CLI::App& bench, app::Todo& todo) {
   scenes.emplace_back("all");
   auto* command = bench.add_subcommand("tool", "measure one tick with the tools of the rack");
   command->add_option("--tool", options->tool, "one of the rack, or all")->capture_default_str();
+  command->add_option("--tools", options->tools, "F.toml: tools of one's own for the rack");
   command->add_option("--scene", options->scene, "plane, groove, hole, slot, rough or all")
       ->check(CLI::IsMember(scenes))
       ->capture_default_str();
