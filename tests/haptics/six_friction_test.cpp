@@ -13,6 +13,7 @@
 #include "burr/rt/simd.h"
 #include "scene.h"
 #include "support/rt_guard.h"
+#include "tools.h"
 
 namespace burr::haptics {
 namespace {
@@ -20,25 +21,14 @@ namespace {
 using math::Pose;
 using math::Quat;
 using math::Vec3;
+using test::one_part;
 using test::Scene;
+using test::turn_about;
 using tool::Role;
 using tool::ShapeKind;
 
 constexpr double kMm = 1e-3;
 const double kLever = std::sqrt(300e-6);  // 1 N/mm and 0.3 N m/rad
-
-tool::Tool one_part(const tool::Shape& shape) {
-  tool::Tool tool;
-  EXPECT_TRUE(tool::add_part(tool, {shape, {}, Role::cuts}));
-  return tool;
-}
-
-Quat turn_about(const Vec3& axis, double angle) {
-  Quat q;
-  q.w() = std::cos(angle / 2);
-  q.vec() = std::sin(angle / 2) * axis.normalized();
-  return q;
-}
 
 tool::Tool box() { return one_part({ShapeKind::box, 2.2 * kMm, 1.7 * kMm, 0.7 * kMm, 0.3 * kMm}); }
 tool::Tool disc(double flat) {

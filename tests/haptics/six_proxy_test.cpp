@@ -15,6 +15,7 @@
 #include "scene.h"
 #include "support/mesh.h"
 #include "support/rt_guard.h"
+#include "tools.h"
 
 namespace burr::haptics {
 namespace {
@@ -22,29 +23,18 @@ namespace {
 using math::Pose;
 using math::Quat;
 using math::Vec3;
+using test::one_part;
 using test::Scene;
+using test::turn_about;
 using tool::Role;
 using tool::ShapeKind;
 
 constexpr double kMm = 1e-3;
 
-tool::Tool one_part(const tool::Shape& shape, const Pose& pose = {}) {
-  tool::Tool tool;
-  EXPECT_TRUE(tool::add_part(tool, {shape, pose, Role::cuts}));
-  return tool;
-}
-
 tool::Tool burr(double radius) {
   tool::Burr head;
   head.radius = radius;
   return tool::burr_with_shaft(head);
-}
-
-Quat turn_about(const Vec3& axis, double angle) {
-  Quat q;
-  q.w() = std::cos(angle / 2);
-  q.vec() = std::sin(angle / 2) * axis.normalized();
-  return q;
 }
 
 SixTouch settle(SixProxy& proxy, const Pose& from, const Pose& to, int ticks = 200) {

@@ -15,6 +15,7 @@
 #include "burr/rt/simd.h"
 #include "scene.h"
 #include "support/rt_guard.h"
+#include "tools.h"
 
 namespace burr::haptics {
 namespace {
@@ -23,18 +24,12 @@ using math::Pose;
 using math::Quat;
 using math::Vec3;
 using test::Scene;
+using test::turn_about;
 using tool::Role;
 using tool::Shape;
 using tool::ShapeKind;
 
 constexpr double kMm = 1e-3;
-
-Quat turn_about(const Vec3& axis, double angle) {
-  Quat q;
-  q.w() = std::cos(angle / 2);
-  q.vec() = std::sin(angle / 2) * axis.normalized();
-  return q;
-}
 
 // A shaft from the origin along +z.
 tool::Tool shaft(double radius, double length = 40 * kMm) {

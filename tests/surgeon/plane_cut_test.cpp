@@ -55,6 +55,25 @@ TEST(PlaneCut, WhatHasNoPlaneIsRefusedWithAReason) {
   EXPECT_NE(why("cut").find("parallel"), std::string::npos) << why("cut");
 }
 
+// A narrow saw needs several places, and some seconds at each.
+TEST(PlaneCut, TooLittleTimeForTheBladeIsRefusedWithTheTimeItNeeds) {
+  const auto bone = phantom::bone_from_distance(
+      phantom::box_grid(Vec3(-6, -12, -6) * kMm, Vec3(12, 12, 6) * kMm, 0.25 * kMm), {},
+      phantom::box({10 * kMm, 8 * kMm, 3 * kMm}));
+  const auto plane = plane_of(slab(), "cut");
+  ASSERT_TRUE(plane.ok());
+  const scenario::RackTool saw = *scenario::built_in_rack().get("sagittal-saw");
+  Blade narrow = blade_of(saw.tool, saw.cutter, saw.lean);
+  narrow.width = 1 * kMm;
+  const auto path = cut_along(*bone, *plane, narrow, 10);
+  ASSERT_FALSE(path.ok());
+  EXPECT_NE(path.error().text.find("give more than"), std::string::npos) << path.error().text;
+  const auto longer = cut_along(*bone, *plane, narrow, 120);
+  ASSERT_TRUE(longer.ok());
+  for (std::size_t n = 1; n < longer->points.size(); ++n)
+    EXPECT_GT(longer->points[n].t, longer->points[n - 1].t);
+}
+
 // The tip of what cuts goes through the bone and a quarter of a millimetre on; a saw that stands covers
 // the width in plunges, a round burr in strokes; the hand ends in free air with the foot off.
 TEST(PlaneCut, EveryToolGoesThroughAndNoFarther) {

@@ -1,14 +1,17 @@
 // A free piece of bone at the window: taken from the list, moved by keys, put down, undone.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <thread>
 #include <utility>
 
 #include "burr/volume/pieces.h"
 #include "burr/volume/sample.h"
 #include "two_blocks.h"
 #include "user.h"
+#include "window/mill/piece_mode.h"
 #include "window/mill/side_panel.h"
 
 namespace burr::app {
@@ -95,6 +98,35 @@ TEST_F(PiecesWindow, WhatIsPutDownLiesWhereItWasShown) {
            {"it lies there", told(Word::piece_lies), [] { close_window(); }}});
   const Vec3 by = boxed(ready.session->bone()) - before;
   EXPECT_LT((by - 3.5 * kMm * right).norm(), kBlockVoxel) << (1e3 * by).transpose();
+}
+
+// The second hand grabs while the first one still holds: the piece stays where it is, and follows the
+// second hand from there.
+TEST(PieceInTwoHands, DoesNotLeapWhenTheOtherHandTakesOver) {
+  auto made = ready_two_blocks();
+  ASSERT_TRUE(made) << made.error().text;
+  PieceMode mode(*made->session, nullptr);
+  for (int n = 0; n < 1000 && mode.state().rows.empty(); ++n) {
+    static_cast<void>(mode.look(true));
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_FALSE(mode.state().rows.empty());
+  mode.take(0);
+  const auto carry = [&mode](const Vec3& hand, int which) {
+    PieceMode::Carrier by;
+    by.hand.p = hand;
+    by.grabs = true;
+    by.which = which;
+    mode.carry(by);
+    return Vec3(mode.state().mm[0], mode.state().mm[1], mode.state().mm[2]);
+  };
+  mode.carry({});
+  EXPECT_NEAR(carry(Vec3::Zero(), 0).norm(), 0, 1e-9);
+  const Vec3 first = carry({2 * kMm, 0, 0}, 0);
+  EXPECT_NEAR(first.norm(), 2, 1e-9);
+  const Vec3 taken_over = carry({50 * kMm, 0, 0}, 1);
+  EXPECT_NEAR((taken_over - first).norm(), 0, 1e-9);
+  EXPECT_NEAR((carry({51 * kMm, 0, 0}, 1) - first).norm(), 1, 1e-9);
 }
 
 }  // namespace

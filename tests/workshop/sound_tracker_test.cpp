@@ -123,8 +123,9 @@ TEST(SoundTracker, AToolOfTheRackSoundsAsItMoves) {
   EXPECT_NEAR(tracker.update(one).to_spare, 7e-3, 1e-12);
 }
 
-// By the samples: the line of a bur lies at its turns, that of a saw at its strokes, and what a saw
-// cuts swells twice a stroke. The other hand's tool is heard as itself, beside the first.
+// By the spectrum of the samples: a bur's tone is at its turns per second, a saw's at its strokes per
+// second. The loudness of a saw's cut rises and falls twice in a stroke. The tool in the second hand
+// sounds like its own kind, and its sound is added to that of the first tool.
 TEST(SoundTracker, TheOtherHandsToolIsHeardAsItself) {
   for (const char* name : {"fissure-bur", "sagittal-saw"}) {
     const scenario::RackTool& rack = *scenario::built_in_rack().find(name);

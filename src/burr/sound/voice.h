@@ -26,7 +26,8 @@ class Voice {
   explicit Voice(const VoiceSettings& settings = {});
 
   void update(const SoundState& now) BURR_RT { door_.publish(now); }
-  // The tool of the other hand, heard beside it; nothing is heard of it before the first call.
+  // State of the tool in the second hand; its sound is added to that of the first tool. Before the
+  // first call the second tool makes no sound.
   void update_second(const SoundState& now) BURR_RT { second_door_.publish(now); }
   void on(bool wanted) BURR_RT { on_.store(wanted, std::memory_order_relaxed); }
   [[nodiscard]] bool is_on() const BURR_RT { return on_.load(std::memory_order_relaxed); }

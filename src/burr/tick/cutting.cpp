@@ -111,7 +111,8 @@ Vec3 Cutting::vibration() BURR_RT {
   now.spindle_rad_s = spindle_.speed();
   now.axis = hand_.axis();
   if (hand_.touch().touching) now.normal = hand_.touch().normal;
-  // a stroke shakes along its way, which is across what is given here and the normal
+  // Vibration turns about `axis` and acts across axis and normal. A saw vibrates along its stroke, so
+  // the axis is at right angles to stroke and normal
   if (shaped() != nullptr && settings_.tool_friction && tool::stroke_speed(shaped()->cutter) > 0 &&
       hand_.touch().touching)
     now.axis = now.normal.cross(Vec3(hand_.tool_turn() * shaped()->cutter.way));
