@@ -89,7 +89,7 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/render/gl/x_errors.cp
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
 burr_part(burr_workshop FROM workshop/)
-burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ surgeon/ sim/
+burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ school/ surgeon/ sim/
   MORE ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp

@@ -74,6 +74,10 @@ constexpr std::array kExamples = std::to_array<Example>({
      "with your own marks and an expert"},
     {"compare", "a.mcap b.mcap", "in the terminal"},
     {"compare", "a.mcap b.mcap --out both.html", "as a page with pictures"},
+    {"study reliability", "marks.csv --marks 5", "how far marks would be the same again"},
+    {"study standard", "groups.csv --method contrasting", "where a cut may lie"},
+    {"study raters", "ratings.csv", "two raters, or raters and the machine"},
+    {"study curve", "marks.csv --json", "with the 95 % band of each curve"},
     {"doctor", "", "look at everything"},
     {"doctor", "--fix", "write the udev rule"},
     {"check", "", "12 seconds"},
@@ -96,6 +100,7 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"help", "mill", "the help of a command"},
     {"case", "check temporal-bone", "see `burr case check --help`"},
     {"rubric", "check jaw", "see `burr rubric check --help`"},
+    {"study", "reliability marks.csv", "see `burr study reliability --help`"},
     {"bench", "frame", "see `burr bench frame --help`"},
 });
 
