@@ -20,6 +20,7 @@ if(NOT tomlplusplus_FOUND)
 endif()
 # reading scans: bzip2; GDCM decodes DICOM pixels (its own config file would pull in VTK)
 find_package(BZip2 REQUIRED)
+find_package(OpenSSL 3 REQUIRED)  # TLS of `burr serve`
 find_package(PNG REQUIRED)  # pictures of AMBF's volumes; stb only writes
 pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)  # and their description
 find_package(meshoptimizer REQUIRED)

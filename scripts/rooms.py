@@ -41,6 +41,7 @@ ALLOWED = {
     "metrics": "record tick thermal volume tool rt",
     "scoring": "metrics record rt scenario volume",
     "school": "people",
+    "serve": "",
     "workshop": "sim tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
