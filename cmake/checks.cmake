@@ -53,6 +53,10 @@ if(Python3_FOUND)
   add_test(NAME house.report COMMAND ${checks}/report.sh ${CMAKE_BINARY_DIR})
   set_tests_properties(house.report PROPERTIES TIMEOUT 300)
 endif()
+if(Python3_FOUND)
+  add_test(NAME house.school COMMAND ${checks}/school.sh ${CMAKE_BINARY_DIR})
+  set_tests_properties(house.school PROPERTIES TIMEOUT 300)
+endif()
 add_test(NAME house.recording_trouble COMMAND ${checks}/recording_trouble.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(house.recording_trouble PROPERTIES TIMEOUT 300)
 add_test(NAME house.install COMMAND ${checks}/install.sh ${CMAKE_BINARY_DIR})
@@ -143,12 +147,13 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # memory. clang++ compiles it in a third of g++'s time, and the fuzzers below use the same
   # library. Sanitized code is several times slower, so the longest random tests run in the release
   # build only.
-  set(asan_rooms base rt math tool volume edit haptics device surface io importing record tick serve)
+  set(asan_rooms base rt math tool volume edit haptics device surface io importing record tick school serve)
   set(asan_filter_haptics "-*Million*:*Random*")
   set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads
                                    # the same files
   # bounds of forces, which the release build tests; and an arm on DDS, whose opening takes 36 ms
   set(asan_filter_device "-*OfManyRandomForces*:LeaderTest.AThousandTimes*")
+  set(asan_filter_school "-*Server*")  # the release build talks to the server; libpq keeps memory to the end
   set(asan_filter_record "-Player.OpensAnyMomentOfTenMinutesAtOnce")  # long, and shorter tests take the same way
   set(asan_targets)
   foreach(room ${asan_rooms})

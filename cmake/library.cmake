@@ -89,7 +89,7 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/render/gl/x_errors.cp
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
 burr_part(burr_workshop FROM workshop/)
-burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ school/ surgeon/ sim/
+burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ surgeon/ sim/
   MORE ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp
@@ -99,6 +99,12 @@ burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
 set(serve_sources ${rest})
 list(FILTER serve_sources INCLUDE REGEX "/src/burr/serve/")
 list(REMOVE_ITEM rest ${serve_sources})
+# The store of learners is for the program alone: who cuts bone with libburr.so loads no database.
+set(school_sources ${rest})
+list(FILTER school_sources INCLUDE REGEX "/src/burr/school/")
+if(school_sources)
+  list(REMOVE_ITEM rest ${school_sources})
+endif()
 set(known ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
   ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 list(REMOVE_ITEM rest ${known})
@@ -135,6 +141,10 @@ burr_reads_files(${reading})
 
 add_library(burr_serve STATIC ${serve_sources})
 target_link_libraries(burr_serve PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
+add_library(burr_school STATIC ${school_sources})
+target_link_libraries(burr_school PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json
+  PkgConfig::SQLITE PkgConfig::POSTGRES)
+burr_common_headers(burr_school <fmt/format.h>)
 
 # what the built-in bones are shaped by (program.cmake)
 file(GLOB BURR_PHANTOMS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/phantom/*)
