@@ -16,7 +16,7 @@ function say(key, values = {}) {
 const textOf = (texts, id) => texts?.[language] || texts?.en || id;
 const day = ms => ms == null ? say("not_yet") : new Date(ms).toLocaleDateString(language, { dateStyle: "medium" });
 const time = ms => new Date(ms).toLocaleString(language, { dateStyle: "medium", timeStyle: "short" });
-const number = (value, digits = 3) => value == null ? "–" : Number(value.toPrecision(digits)).toLocaleString(language);
+const number = (value, digits = 3) => value == null ? "–" : typeof value === "string" ? value : Number(value.toPrecision(digits)).toLocaleString(language);
 
 // ---- elements
 
@@ -30,14 +30,15 @@ function el(name, attributes = {}, ...children) {
 const link = (to, ...children) => el("a", { href: "#" + to }, ...children);
 const to = (...parts) => "/" + parts.map(encodeURIComponent).join("/");
 
-function table(caption, heads, rows, kind = "") {
+// seen: false where the heading above says the same; the caption is then for screen readers alone.
+function table(caption, heads, rows, kind = "", seen = false) {
   const head = el("tr", {}, heads.map(([text, what]) => el("th", { scope: "col", class: what ?? null }, text)));
   const body = rows.map(cells => el("tr", {}, cells.map((cell, n) => {
     const what = heads[n][1] ?? null;
     return n === 0 ? el("th", { scope: "row" }, cell) : cell instanceof Element && cell.tagName === "TD" ? cell : el("td", { class: what }, cell);
   })));
   return el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    el("table", { class: kind || null }, el("caption", {}, caption), el("thead", {}, head), el("tbody", {}, body)));
+    el("table", { class: kind || null }, el("caption", { class: seen ? null : "hidden" }, caption), el("thead", {}, head), el("tbody", {}, body)));
 }
 function facts(pairs) {
   return el("dl", { class: "facts" }, pairs.flatMap(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]));
@@ -118,14 +119,14 @@ async function cohort(id, name) {
       if (one?.share == null) return el("td", { class: "none" }, "–");
       return el("td", { class: share(one.share, 1)[0] }, Math.round(100 * one.share) + " %");
     })]);
-  out.push(table(caption, [[say("learner")], ...all.items.map(item => [textOf(item.say, item.id)])], rows, "heat"));
+  out.push(table(caption, [[say("learner")], ...all.items.map(item => [textOf(item.say, item.id)])], rows, "heat", true));
   if (all.members.length < needed) out.push(el("p", {}, say("heat_few", { n: needed })));
   return out;
 }
 
 // Marks over attempts, 0 to 100 %.
 function chart(points, curve, title) {
-  const wide = 640, high = 260, left = 44, top = 14, right = 14, bottom = 34;
+  const wide = 640, high = 270, left = 44, top = 26, right = 14, bottom = 34;
   const last = Math.max(needed, ...points.map(one => one.attempt));
   const x = n => left + (wide - left - right) * (n - 0.5) / last, y = value => top + (high - top - bottom) * (1 - Math.min(100, Math.max(0, value)) / 100);
   const parts = [el("title", {}, title)];
@@ -273,7 +274,10 @@ async function show(focus) {
     document.title = "burr – " + (main.querySelector("h1")?.textContent ?? "");
     state.textContent = "";
     document.body.dataset.shown = String(Math.round(performance.now() - began));
-    if (focus) main.focus();
+    if (focus) {
+      main.focus({ preventScroll: true });
+      scrollTo(0, 0);
+    }
   } catch (trouble) {
     if (mine !== turn) return;
     main.replaceChildren();

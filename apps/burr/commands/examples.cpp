@@ -79,6 +79,8 @@ constexpr std::array kExamples = std::to_array<Example>({
      "with your own marks and an expert"},
     {"compare", "a.mcap b.mcap", "in the terminal"},
     {"compare", "a.mcap b.mcap --out both.html", "as a page with pictures"},
+    {"serve", "", "on this computer, port 8231"},
+    {"serve", "--store postgresql://school.example/school --port 9000", "a centre's database"},
     {"study reliability", "marks.csv --marks 5", "how far marks would be the same again"},
     {"study standard", "groups.csv --method contrasting", "where a cut may lie"},
     {"study raters", "ratings.csv", "two raters, or raters and the machine"},

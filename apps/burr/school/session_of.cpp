@@ -24,7 +24,8 @@ using scoring::Outcome;
 using scoring::Part;
 using scoring::Verdict;
 
-std::string evidence_of(const Item& item, const Outcome& outcome) {
+// rate: ticks a second  [Hz]
+std::string evidence_of(const Item& item, const Outcome& outcome, double rate) {
   nlohmann::ordered_json row;
   row["measure"] = item.how->name;
   row["calibrated"] = item.calibrated;
@@ -38,11 +39,14 @@ std::string evidence_of(const Item& item, const Outcome& outcome) {
     row["at_least"] = outcome.at_least;
   }
   if (outcome.place) row["place_m"] = {outcome.place->x(), outcome.place->y(), outcome.place->z()};
-  if (outcome.tick) row["tick"] = *outcome.tick;
+  if (outcome.tick) {
+    row["tick"] = *outcome.tick;
+    row["at_s"] = static_cast<double>(*outcome.tick) / rate;
+  }
   return row.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-school::ItemRecord item_of(const Item& item, const Outcome& outcome) {
+school::ItemRecord item_of(const Item& item, const Outcome& outcome, double rate) {
   school::ItemRecord out;
   out.id = item.id;
   out.result = scoring::word_of(outcome.verdict);
@@ -52,7 +56,7 @@ school::ItemRecord item_of(const Item& item, const Outcome& outcome) {
     out.margin =
         outcome.at_least ? *outcome.value - outcome.threshold : outcome.threshold - *outcome.value;
   }
-  out.evidence_json = evidence_of(item, outcome);
+  out.evidence_json = evidence_of(item, outcome, rate);
   return out;
 }
 
@@ -66,7 +70,7 @@ school::ScoreRecord score_of(const Scored& scored, Part part, const scoring::Tot
   for (std::size_t n = 0; n < rubric.items.size(); ++n) {
     const Outcome& outcome = scored.score.outcomes[n];
     if (rubric.items[n].part != part) continue;
-    out.items.push_back(item_of(rubric.items[n], outcome));
+    out.items.push_back(item_of(rubric.items[n], outcome, scored.judged.player->info().rate_hz));
     if (rubric.items[n].gate && outcome.verdict == Verdict::unmet && outcome.earned)
       ++out.gates_broken;
   }
