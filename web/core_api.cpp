@@ -1,6 +1,6 @@
 // What the worker of the page calls (pages/mill/worker.js): the bone, its surface, and the tick.
 //
-//     core_make(voxel_mm) -> core_surface() -> [ core_patch() ]* -> core_soft() -> core_begin()
+//     core_make(voxel_mm) -> [ core_patch() ]* -> core_soft() -> core_begin()
 //     then, each beat: core_aim(), core_step(ticks), core_row(), [ core_patch() ]*
 //
 // One thread: each call belongs to it. What a call gives lies in the module's memory until the next
@@ -14,6 +14,7 @@
 #include <deque>
 #include <memory>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "burr/base/progress.h"
@@ -24,6 +25,7 @@
 #include "burr/tick/servo.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
+#include "page_recorder.h"
 #include "window/hands/mouse_hand.h"
 #include "work_of_page.h"
 
@@ -50,6 +52,10 @@ struct Core {
   std::unique_ptr<app::MouseHand> hand;
   std::unique_ptr<tick::Servo> servo;
   tick::TickRow row;
+  double voxel_mm = 0;
+  std::unique_ptr<web::PageRecorder> recorder;  // nullptr: it has failed, or is finished
+  int undrained = 0;                            // ticks
+  std::string why;                              // it has failed
 
   std::unique_ptr<surface::Mesher> mesher;
   rt::ChangedBits* changed = nullptr;
@@ -97,6 +103,15 @@ void want_all(Core& c) {
   for (const auto& [far, n] : order) c.want(n);
 }
 
+void drain(Core& c) {
+  c.undrained = 0;
+  const Status drained = c.recorder->drain();
+  if (drained) return;
+  c.why = drained.error().text;
+  c.servo->set_recorder_rings({});
+  c.recorder.reset();
+}
+
 }  // namespace
 
 extern "C" {
@@ -104,6 +119,7 @@ extern "C" {
 // Makes the bone by its formula. 0: there is not enough memory.
 EMSCRIPTEN_KEEPALIVE int core_make(double voxel_mm) {
   core = std::make_unique<Core>();
+  core->voxel_mm = voxel_mm;
   const double voxel = 1e-3 * voxel_mm;
   const phantom::Phantom made = web::phantom_of_page(voxel);
   NoProgress quiet;
@@ -163,9 +179,35 @@ EMSCRIPTEN_KEEPALIVE void core_begin() {
   above.p = web::work_at() - 20e-3 * web::work_into();
   above.q = math::shortest_rotation(Vec3::UnitZ(), -web::work_into());
   c.hand = std::make_unique<app::MouseHand>(above);
-  c.servo =
-      std::make_unique<tick::Servo>(*c.bone, *c.surface, *c.hand, settings_for(c.hand->spec()));
+  const tick::ServoSettings settings = settings_for(c.hand->spec());
+  c.servo = std::make_unique<tick::Servo>(*c.bone, *c.surface, *c.hand, settings);
+  auto recorder = web::PageRecorder::begin(*c.bone, settings, c.hand->spec(), c.voxel_mm);
+  if (!recorder) {
+    c.why = recorder.error().text;
+    return;
+  }
+  c.recorder = std::move(*recorder);
+  c.servo->set_recorder_rings(c.recorder->rings());
 }
+
+// Completes the recording: the file PageRecorder::kFile. 0: core_why() says why there is none.
+EMSCRIPTEN_KEEPALIVE int core_finish_recording() {
+  Core& c = *core;
+  if (c.recorder == nullptr) {
+    if (c.why.empty()) c.why = "the recording is finished";
+    return 0;
+  }
+  const Status done = c.recorder->finish([&c] {
+    if (c.servo->bricks_to_write() == 0) return false;
+    c.servo->flush_bricks();
+    return true;
+  });
+  c.servo->set_recorder_rings({});
+  c.recorder.reset();
+  if (!done) c.why = done.error().text;
+  return done ? 1 : 0;
+}
+EMSCRIPTEN_KEEPALIVE const char* core_why() { return core->why.c_str(); }
 
 // Where the hand shall be: the bytes of a MouseHand::Aim are written here, then core_aimed() is called.
 EMSCRIPTEN_KEEPALIVE void* core_aim() {
@@ -181,6 +223,7 @@ EMSCRIPTEN_KEEPALIVE void core_step(int ticks) {
   for (int n = 0; n < ticks; ++n) {
     c.row = c.servo->tick(false);
     c.servo->publish();
+    if (c.recorder != nullptr && ++c.undrained >= web::PageRecorder::kDue) drain(c);
   }
   c.bone->commit_ahead();
   c.surface->commit_ahead();

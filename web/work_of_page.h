@@ -17,6 +17,7 @@ inline math::Vec3 work_at() { return {-2e-3, 11e-3, 5e-3}; }
 inline math::Vec3 work_into() { return {1, 0, 0}; }
 
 // Its bone.
+inline constexpr const char* kPhantom = "phantom:temporal-bone?ridge-dura";
 inline phantom::Phantom phantom_of_page(double voxel) {
   phantom::Variant variant;
   variant.add("ridge-dura", std::nullopt);

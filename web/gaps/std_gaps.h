@@ -3,8 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
 #include <functional>
 #include <iterator>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -17,6 +20,16 @@ requires(sizeof(To) == sizeof(From) && is_trivially_copyable_v<To> &&
   return __builtin_bit_cast(To, from);
 }
 #endif
+
+// of a number with a point, in the C locale: a module has no other
+inline from_chars_result from_chars(const char* first, const char* last, double& value) {
+  const string text(first, last);
+  char* end = nullptr;
+  const double read = strtod(text.c_str(), &end);
+  if (end == text.c_str()) return {first, errc::invalid_argument};
+  value = read;
+  return {first + (end - text.c_str()), errc()};
+}
 
 #ifndef __cpp_lib_ranges
 inline namespace _LIBCPP_ABI_NAMESPACE {

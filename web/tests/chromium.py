@@ -112,6 +112,9 @@ class Chromium:
     def open(self, url):
         return Page(self, url)
 
+    def keep_downloads(self, folder):
+        self.send("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
+
     def __enter__(self):
         return self
 
@@ -130,8 +133,9 @@ class Page:
         self.browser = browser
         self.troubles = []  # what the console says as a warning or an error, and what was thrown
         self.requests = []  # (seconds since the start, address)
-        target = browser.send("Target.createTarget", {"url": "about:blank"})["targetId"]
-        self.session = browser.send("Target.attachToTarget", {"targetId": target, "flatten": True})["sessionId"]
+        self.target = browser.send("Target.createTarget", {"url": "about:blank"})["targetId"]
+        self.session = browser.send("Target.attachToTarget", {"targetId": self.target, "flatten": True})["sessionId"]
+        self.sessions = {self.session}
         self.begun = time.monotonic()
         browser.listeners.append(self._hear)
         for domain in ("Page", "Runtime", "Log", "Network"):
@@ -144,8 +148,11 @@ class Page:
 
     def _hear(self, message):
         method, params = message["method"], message.get("params", {})
+        if message.get("sessionId") not in self.sessions:
+            return
         if method == "Target.attachedToTarget":
             session = params["sessionId"]
+            self.sessions.add(session)
 
             def listen():  # not from the thread that reads
                 for domain in ("Runtime", "Network"):
@@ -166,6 +173,9 @@ class Page:
 
     def send(self, method, params=None):
         return self.browser.send(method, params, self.session)
+
+    def close(self):
+        self.browser.send("Target.closeTarget", {"targetId": self.target})
 
     def run(self, script):
         """The value of a JavaScript expression; a promise is waited for."""

@@ -74,6 +74,7 @@ constexpr std::array kExamples = std::to_array<Example>({
      "with your own marks and an expert"},
     {"compare", "a.mcap b.mcap", "in the terminal"},
     {"compare", "a.mcap b.mcap --out both.html", "as a page with pictures"},
+    {"web", "--out page", "burr in a browser, for any web server"},
     {"doctor", "", "look at everything"},
     {"doctor", "--fix", "write the udev rule"},
     {"check", "", "12 seconds"},

@@ -2,7 +2,8 @@
 // picture and says where the hand is; in worker.js it ticks.
 import {compile, start} from '../common/burr.js';
 import * as words from '../common/words.js';
-import {word, number} from '../common/words.js';
+
+const {word, number} = words;
 
 // tick/command.h, CommandKind
 const Command = {spindle_speed: 0, burr_radius: 1, undo: 5, redo: 6, reset: 7};
@@ -24,6 +25,9 @@ const burr = window.burr = {
   figures: {},
   ready: false,
   voxel: 0.5,
+  // where the burr is in the picture, and its radius there [pixel of the canvas]
+  place: () => [...view.numbers(view.view_burr(), 3)],
+  refined: () => view.view_refined() === 1 && waiting.length === 0,
 };
 const mark = (name) => { burr.times[name] ??= Math.round(performance.now()); };
 
@@ -95,6 +99,10 @@ function hear(data) {
       break;
     case 'hashes':
       burr.hashes = data;
+      break;
+    case 'saved':
+      if (data.file) keep(data.file);
+      else say(word('not_saved', data.why));
       break;
     case 'broken':
       fail(new Error(data.text));
@@ -168,12 +176,13 @@ function fit() {
 
 function write() {
   const [time, force, removed, size_now, rpm, now, touching, flags] = view.numbers(view.view_figures(), 8);
-  burr.figures = {time, force, removed, size: size_now, rpm, now, touching, flags};
+  const size_mm = Math.round(100 * size_now) / 100;
+  burr.figures = {time, force, removed, size: size_mm, rpm, now, touching, flags};
   if (!burr.ready) return;
   $('force').textContent = number(force, 1);
   $('bar').style.width = `${Math.min(100, 100 * force / kMostForce)}%`;
   $('removed').textContent = number(removed, 1);
-  $('size').textContent = number(size_now, size_now % 1 === 0 ? 0 : 1);
+  $('size').textContent = number(size_mm, size_mm % 1 === 0 ? 0 : 1);
   $('rpm').textContent = number(rpm, 0);
   const lost = burr.state.left_out;
   $('loop').textContent = lost > 0 ? word('left_out', number(lost, 0)) : word('ticks_good');
@@ -203,7 +212,23 @@ const acts = {
   more: () => change_depth(1.25),
   home: () => { view.view_home(); dirty = true; },
   finer: begin_finer,
+  save: () => {
+    if (!burr.ready) return;
+    $('save').disabled = true;
+    worker.postMessage({kind: 'save'});
+  },
 };
+
+// Gives the recording to the user as a file. It goes nowhere else.
+function keep(bytes) {
+  burr.saved = bytes.length;
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([bytes], {type: 'application/octet-stream'}));
+  link.download = 'burr.mcap';
+  link.click();
+  burr.file = link.href;
+  say(word('saved'), 12000);
+}
 
 // the servo refuses a burr of less than four voxels
 function resize(by) {
@@ -233,6 +258,7 @@ function begin_finer() {
   speed = 80000;
   size = 5;
   view.view_bone(burr.voxel);
+  $('save').disabled = false;
   dress();
   say(word('shaping'));
   worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
@@ -348,6 +374,8 @@ function dress() {
     $(id).setAttribute('aria-label', word(key));
   }
   $('home').textContent = word('first_view');
+  $('save').textContent = word('save');
+  $('save').title = word('save_tip');
   $('finer').textContent = `${number(burr.voxel === 0.5 ? 0.25 : 0.5, 2)} mm`;
   if (burr.voxel === 0.5) $('finer').textContent = word('finer');
   $('finer').title = word('finer_tip');

@@ -3,8 +3,9 @@
 // All ticks that are due are computed together, every 4 ms or so: a mouse has no motors, so nobody
 // feels that. Ticks that a busy machine has missed are left out and counted, never made up for.
 //
-//     page -> worker   start {compiled, voxel}, next {aim}, command {kind, value}, pause {on}, hashes
-//     worker -> page   skin {patches}, soft {parts}, ready, state {row, patches, figures}, hashes, broken
+//     page -> worker   start {compiled, voxel}, next {aim}, command {what, value}, pause {on}, hashes, save
+//     worker -> page   shaped, skin {patches}, skin_done, soft {parts}, ready, state {row, patches, ...}, hashes,
+//                      saved {file} or {why}, broken {text}
 //
 // The page answers every state with `next`; until then none is sent, so none waits in a queue.
 import {start} from '../common/burr.js';
@@ -54,7 +55,21 @@ function take(data) {
   } else if (data.kind === 'hashes') {
     const [tick, bone] = burr.text(burr.core_hashes()).split(' ');
     self.postMessage({kind: 'hashes', tick, bone, ticks: done});
+  } else if (data.kind === 'save') {
+    save();
   }
+}
+
+// Completes the recording, which lies in the module's own memory, and hands it over.
+function save() {
+  if (burr.core_finish_recording() === 0) {
+    self.postMessage({kind: 'saved', why: burr.text(burr.core_why())});
+    return;
+  }
+  const {FS} = burr.module;
+  const file = FS.readFile('/burr.mcap');
+  FS.unlink('/burr.mcap');
+  self.postMessage({kind: 'saved', file}, [file.buffer]);
 }
 
 const pause = () => new Promise((go) => {
