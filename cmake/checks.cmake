@@ -205,6 +205,11 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   add_test(NAME portable.aarch64_tests COMMAND ${checks}/portable.sh aarch64 ${CMAKE_BINARY_DIR} tests)
   set_tests_properties(portable.aarch64_tests PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_aarch64)
 
+  # the page that portable.web has built, in a browser
+  add_test(NAME page COMMAND ${checks}/page.sh ${CMAKE_BINARY_DIR})
+  set_tests_properties(page PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1800 LABELS long
+    FIXTURES_REQUIRED portable_web)
+
   # libFuzzer: 3 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)
   set_tests_properties(fuzz.seeds PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP fuzz_seeds LABELS long)

@@ -85,6 +85,7 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"study standard", "groups.csv --method contrasting", "where a cut may lie"},
     {"study raters", "ratings.csv", "two raters, or raters and the machine"},
     {"study curve", "marks.csv --json", "with the 95 % band of each curve"},
+    {"web", "--out page", "burr in a browser, for any web server"},
     {"doctor", "", "look at everything"},
     {"doctor", "--fix", "write the udev rule"},
     {"check", "", "12 seconds"},
