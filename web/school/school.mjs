@@ -177,7 +177,7 @@ const resultWord = result => (signs[result] ?? "") + " " + say(result.replace(" 
 
 function evidence(item) {
   const times = item.evidence ?? [];
-  if (times.length === 0) return say("none");
+  if (times.length === 0) return item.place_mm ? say("evidence_place", { place: item.place_mm.map(x => number(x)).join("; ") }) : "–";
   return times.slice(0, 5).map(t => say("evidence_at", { t: number(t) })).join(", ") + (times.length > 5 ? ", " + say("one_more", { n: times.length - 5 }) : "");
 }
 

@@ -19,7 +19,7 @@ export const words = {
     beside: "Compare with", compare: "Compare", default_note: "Thresholds are defaults that no centre has compared with people: {n} of {of} items are calibrated.",
     no_decision: "Fewer than five sessions without guidance: no decision should rest on these figures.",
     when: "When", who: "Who", what: "What", about: "About", read_only: "The store was made by a newer burr. It is shown and not changed.",
-    minutes: "{n} min", attempts: "attempts", evidence_at: "{t} s", none: "none", one_more: "and {n} more", recording: "Recording", differs: "Only where they differ",
+    minutes: "{n} min", attempts: "attempts", evidence_at: "{t} s", evidence_place: "at {place} mm", none: "none", one_more: "and {n} more", recording: "Recording", differs: "Only where they differ",
     foot: "Pseudonyms only. Nothing on this page leaves this computer.",
   },
   sv: {
@@ -41,7 +41,7 @@ export const words = {
     beside: "Jämför med", compare: "Jämför", default_note: "Gränserna är förval som ingen kursort har jämfört med människor: {n} av {of} punkter är kalibrerade.",
     no_decision: "Färre än fem pass utan ledning: inget beslut bör vila på dessa siffror.",
     when: "När", who: "Vem", what: "Vad", about: "Om", read_only: "Registret skapades av en nyare burr. Det visas och ändras inte.",
-    minutes: "{n} min", attempts: "försök", evidence_at: "{t} s", none: "inga", one_more: "och {n} till", recording: "Inspelning", differs: "Bara där de skiljer sig",
+    minutes: "{n} min", attempts: "försök", evidence_at: "{t} s", evidence_place: "vid {place} mm", none: "inga", one_more: "och {n} till", recording: "Inspelning", differs: "Bara där de skiljer sig",
     foot: "Bara pseudonymer. Inget på sidan lämnar den här datorn.",
   },
   de: {
@@ -63,7 +63,7 @@ export const words = {
     beside: "Vergleichen mit", compare: "Vergleichen", default_note: "Die Schwellen sind Vorgaben, die kein Zentrum mit Menschen verglichen hat: {n} von {of} Punkten sind kalibriert.",
     no_decision: "Weniger als fünf Sitzungen ohne Anleitung: auf diesen Zahlen sollte keine Entscheidung beruhen.",
     when: "Wann", who: "Wer", what: "Was", about: "Über", read_only: "Der Speicher stammt von einem neueren burr. Er wird gezeigt und nicht verändert.",
-    minutes: "{n} min", attempts: "Versuche", evidence_at: "{t} s", none: "keine", one_more: "und {n} weitere", recording: "Aufnahme", differs: "Nur wo sie sich unterscheiden",
+    minutes: "{n} min", attempts: "Versuche", evidence_at: "{t} s", evidence_place: "bei {place} mm", none: "keine", one_more: "und {n} weitere", recording: "Aufnahme", differs: "Nur wo sie sich unterscheiden",
     foot: "Nur Pseudonyme. Nichts auf dieser Seite verlässt diesen Rechner.",
   },
 };

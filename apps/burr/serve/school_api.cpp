@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -234,6 +235,11 @@ Json item_of(const school::ItemRow& item, std::map<std::string, Json>& words, in
   out["borderline"] = evidence.value("borderline", false);
   out["reason"] = evidence.value("reason", std::string());
   if (evidence.contains("at_s")) out["evidence"].push_back(evidence["at_s"]);
+  if (const auto place = evidence.find("place_m"); place != evidence.end() && place->is_array()) {
+    out["place_mm"] = Json::array();  // LPS
+    for (const Json& x : *place)
+      if (x.is_number()) out["place_mm"].push_back(std::round(1e4 * x.get<double>()) / 10);
+  }
   calibrated += evidence.value("calibrated", false) ? 1 : 0;
   return out;
 }
