@@ -218,6 +218,11 @@ TEST(StoreTrouble, ARecordingThatWaitsIsScoredOnce) {
   ASSERT_TRUE(keep(place, WaitingRecording{file, "kestrel-27", ""}));
   ASSERT_TRUE(keep(place, WaitingRecording{folder / "gone.mcap", "kestrel-27", ""}));
   EXPECT_EQ(take_in(*store, {}).left, 1U);  // nobody here can score; the other is said to be gone
+  const ScoreIt fails = [](const WaitingRecording&) -> Result<SessionRecord> {
+    return error("the bone is not there");
+  };
+  EXPECT_EQ(take_in(*store, fails).left, 1U);
+  EXPECT_EQ(waits(place), 1U);
   int scored = 0;
   const ScoreIt score = [&](const WaitingRecording& one) -> Result<SessionRecord> {
     EXPECT_EQ(one.file, file);
@@ -325,6 +330,14 @@ TEST_F(ServerTrouble, AStationWithoutRightsToNamesEntersSessions) {
   const auto named = learners(*store, true);
   ASSERT_FALSE(named);
   EXPECT_NE(named.error().text.find("permission denied"), std::string::npos) << named.error().text;
+  // a right that is taken away makes sessions wait, not go
+  ASSERT_TRUE(owner->database().run("REVOKE INSERT ON metric FROM station"));
+  const auto kept = enter_or_keep(place, made_session("kestrel-27", "b"));
+  ASSERT_TRUE(kept) << kept.error().text;
+  EXPECT_FALSE(kept->stored);
+  EXPECT_EQ(take_in(*store, {}).left, 1U);
+  ASSERT_TRUE(owner->database().run("GRANT INSERT ON metric TO station"));
+  comes_in_once(place, 1, 2);
   Learner other;
   other.id = "lynx-100";
   EXPECT_FALSE(add(*store, other, {"Ada Lovelace", "", ""}));

@@ -6,8 +6,8 @@
 // Statements are prepared, and values travel apart from them: Sql takes only a constant, so no text of a person can
 // become part of a statement. $1, $2 ... work in both. Times are milliseconds since 1970, UTC.
 //
-// Errors. Trouble::io: the database cannot be reached or written now (locked, disk full, server gone); what was to be
-// written must be kept and tried again. Any other: it was refused, and would be again.
+// Errors. Trouble::io: the database cannot be reached or written now (locked, disk full, server gone). Trouble::data: it
+// answered that it will not do this (no right, no such table, damaged). A session waits after both (pending.h).
 // Thread: one at a time for each Database. A call may wait: SQLite Waits::lock, PostgreSQL some seconds.
 #pragma once
 

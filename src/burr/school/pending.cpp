@@ -65,22 +65,25 @@ Result<std::optional<Waiting>> read(const StorePlace& place, const fs::path& fil
   return std::optional<Waiting>(std::move(one));
 }
 
-// True: the session is where it belongs, or will never be; its file can go.
+// Refused for good: nothing but another store would take it.
+bool is_refused(const Error& error) { return error.trouble == Trouble::usage; }
+
+// True: the session is where it belongs, or was refused; its file can go.
 bool settle(Store& store, const SessionRecord& record, TakenIn& in) {
   const auto entered = enter(store, record);
   if (entered) {
     ++in.taken;
     return true;
   }
-  if (entered.error().trouble == Trouble::io) {
-    ++in.left;
-    in.notices.push_back(entered.error().text);
-    return false;
+  if (is_refused(entered.error())) {
+    in.notices.push_back(fmt::format("a session that waited was refused and is deleted: {} ({})",
+                                     entered.error().text,
+                                     base::printable(record.recording_uri, 300)));
+    return true;
   }
-  in.notices.push_back(fmt::format("a session that waited was refused and is deleted: {} ({})",
-                                   entered.error().text,
-                                   base::printable(record.recording_uri, 300)));
-  return true;
+  ++in.left;
+  in.notices.push_back(entered.error().text);
+  return false;
 }
 
 void take(Store& store, const Waiting& one, const ScoreIt& score, TakenIn& in) {
@@ -101,13 +104,12 @@ void take(Store& store, const Waiting& one, const ScoreIt& score, TakenIn& in) {
   }
   const auto record = score(*one.recording);
   if (!record) {
-    // it would fail again; the recording stays where it is
-    const bool later = record.error().trouble == Trouble::interrupted;
-    in.left += later ? 1 : 0;
-    in.notices.push_back(
-        fmt::format("{}{}", record.error().text,
-                    later ? "" : "; this recording does not come into the store by itself"));
-    if (!later) fs::remove(one.file, ignored);
+    // perhaps the bone is on a disk that is not there now; each start says so until the recording is gone
+    in.notices.push_back(record.error().text);
+    if (is_refused(record.error()))
+      fs::remove(one.file, ignored);
+    else
+      ++in.left;
     return;
   }
   if (settle(store, *record, in)) fs::remove(one.file, ignored);
@@ -157,7 +159,7 @@ Result<Kept> enter_or_keep(const StorePlace& place, const SessionRecord& record)
   } else {
     trouble = store.error();
   }
-  if (trouble.error().trouble != Trouble::io) return trouble.error();
+  if (is_refused(trouble.error())) return trouble.error();
   if (const Status waits = keep(place, record); !waits)
     return error(Trouble::io, fmt::format("{}; and {}", trouble.error().text, waits.error().text));
   return Kept{false, trouble.error().text};

@@ -53,8 +53,8 @@ struct TakenIn {
   std::vector<std::string> notices;  // one for each that was refused or still waits
 };
 using ScoreIt = std::function<Result<SessionRecord>(const WaitingRecording&)>;
-// score: makes a session of a recording; without it recordings go on waiting. What the store refuses (its learner was
-// forgotten) is deleted.
+// score: makes a session of a recording; without it recordings go on waiting. Deleted is what the store refuses by
+// Trouble::usage (its learner was forgotten, or it is another learner's), and what waits for a recording that is gone.
 [[nodiscard]] TakenIn take_in(Store& store, const ScoreIt& score);
 
 }  // namespace burr::school
