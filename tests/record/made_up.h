@@ -78,6 +78,9 @@ inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
   row.contact.flags = static_cast<std::uint32_t>(random());
   row.ledger = {any(random), any(random), any(random), any(random),
                 any(random), any(random), any(random), any(random)};
+  row.piece.state = static_cast<int>(2 + random() % 100);
+  row.piece.p = any_vec3(random);
+  row.piece.turn = {any(random), any(random), any(random), any(random)};
   row.spindle_rad_s = any(random);
   row.cutting_nm = any(random);
   row.cutting_w = any(random);
@@ -131,6 +134,9 @@ inline void expect_same(const tick::TickRow& a, const tick::TickRow& b) {
       << a.tick;
   EXPECT_TRUE(same(a.spindle_rad_s, b.spindle_rad_s)) << a.tick;
   EXPECT_TRUE(same(a.cutting_nm, b.cutting_nm) && same(a.cutting_w, b.cutting_w)) << a.tick;
+  EXPECT_EQ(a.piece.state, b.piece.state);
+  EXPECT_TRUE(same3(a.piece.p, b.piece.p)) << a.tick;
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(same(a.piece.turn[i], b.piece.turn[i])) << a.tick;
   EXPECT_EQ(a.tool, b.tool) << a.tick;
   EXPECT_EQ(std::bit_cast<std::uint32_t>(a.took_us), std::bit_cast<std::uint32_t>(b.took_us));
   EXPECT_EQ(std::bit_cast<std::uint32_t>(a.late_us), std::bit_cast<std::uint32_t>(b.late_us));

@@ -120,7 +120,9 @@ TEST(Recorder, AMoveOfAPieceComesBackToTheBit) {
                       {0.1, -1e-17, 1.0 / 3},
                       {0.6, 0, 1e-300, 0.8},
                       0xfedcba9876543210ULL,
-                      0x0123456789abcdefULL};
+                      0x0123456789abcdefULL,
+                      0xffffffffffffffffULL,
+                      true};
   tick::CommandRow back;
   ASSERT_TRUE(command_from_json(to_json(row), back)) << to_json(row);
   EXPECT_EQ(back.tick, row.tick);
@@ -147,10 +149,12 @@ TEST(Recorder, EveryFieldOfATickHasAColumn) {
   fields += sizeof(device::HandState);  // has 3 byte of padding after `valid`
   fields += sizeof(haptics::Contact);   // 3 byte after `touching`
   fields += sizeof(tool::ToolState);    // 3 byte after `irrigated`
+  fields += sizeof(tick::PieceRow);     // 4 byte after `state`
   EXPECT_EQ(fields, sizeof(tick::TickRow))
       << "a new field in TickRow: add its column in schema.cpp";
-  EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3 - 3)
-      << "a new field in HandState, Contact, Ledger or ToolState: add its column in schema.cpp";
+  EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3 - 3 - 4)
+      << "a new field in HandState, Contact, Ledger, ToolState or PieceRow: add its column in "
+         "schema.cpp";
 }
 
 TEST(Recorder, AToolThatStaysCostsAMessageOneValueAColumn) {

@@ -51,6 +51,7 @@ struct Options {
                                                       removal = "energy", mirror;
   ToolOptions tool;
   SecondOptions second;
+  std::string carry_piece;
   std::vector<double> at_mm, into;
   std::vector<std::string> move_pieces;
   double burr_mm = 5, rpm = 40000, rate_hz = 1000, seconds = 10, stiffness = 1000;
@@ -225,6 +226,53 @@ Status move_pieces(const std::vector<sim::PieceOrder>& orders, sim::Session& ses
   return fine();
 }
 
+constexpr double kLiftTime = 10;  // in which a piece is out of the bone  [s]
+
+// A path that carries a piece, from the place where the hand is when its motion is over.
+struct Carry {
+  math::Vec3 near = math::Vec3::Zero();  // of the piece
+  device::HandPath path;
+};
+Result<Carry> read_carry(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  Carry carry;
+  if (colon == std::string::npos || !point_of(text.substr(0, colon), carry.near))
+    return error(Trouble::usage,
+                 fmt::format("--carry-piece {}: give X,Y,Z:FILE.csv (mm), for example "
+                             "10,0,5:carry.csv",
+                             base::printable(text)));
+  auto path = surgeon::read_path(text.substr(colon + 1));
+  if (!path) return path.error();
+  carry.path = std::move(*path);
+  return carry;
+}
+
+// The hand waits with an open grip while the piece is lifted, then goes as the path says.
+void carry_on(device::HandPath& path, const Carry& carry) {
+  device::PathPoint last = path.points.back();
+  last.pedal = 0;
+  last.t += 1e-3;
+  path.points.push_back(last);
+  const double begins = last.t + kLiftTime;
+  for (const device::PathPoint& point : carry.path.points) {
+    device::PathPoint to = point;
+    to.t += begins - carry.path.points.front().t;
+    to.world_from_tool.p += last.world_from_tool.p - carry.path.points.front().world_from_tool.p;
+    path.points.push_back(to);
+  }
+}
+
+Status carry_piece(const Carry& carry, sim::Session& session, edit::PieceStore& store) {
+  const double began = session.outcome().seconds;
+  const auto lifted = sim::lift_piece(session, store, carry.near, progress());
+  if (!lifted) return lifted.error();
+  const double rest = kLiftTime - (session.outcome().seconds - began);
+  if (rest < 0) return error(Trouble::internal, "the piece was not lifted in time");
+  session.run(rest + carry.path.duration() - carry.path.points.front().t, progress());
+  const auto put = sim::put_down(session, store, *lifted, progress());
+  return put ? fine() : Status(put.error());
+}
+
 // The hand stays where the path ends, with the spindle off.
 void rest_at_end(device::HandPath& path) {
   constexpr double kAtOnce = 1e-3, kLong = 24 * 3600;  // [s]
@@ -277,7 +325,7 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   out["asked_mm3"] = 1e9 * outcome.ledger.asked;
   out["not_cut_mm3"] = 1e9 * outcome.ledger.not_cut;
   out["owed_mm3"] = 1e9 * outcome.ledger.debt;
-  if (!options.move_pieces.empty()) {
+  if (!options.move_pieces.empty() || !options.carry_piece.empty()) {
     out["moved_loss_mm3"] = 1e9 * outcome.ledger.moved;
     out["pieces"] = pieces_json(told.pieces);
   }
@@ -321,9 +369,28 @@ Result<importing::Imported> open_volume(Options& options) {
 
 std::vector<MovedPiece> pieces_of(const Options& options, const edit::PieceStore& store,
                                   const volume::Bone& bone) {
-  if (!options.work_case || options.move_pieces.empty()) return moved_pieces(store, bone);
+  if (!options.work_case || (options.move_pieces.empty() && options.carry_piece.empty()))
+    return moved_pieces(store, bone);
   const auto lesson = workshop::placed_lesson(*options.work_case);
   return moved_pieces(store, bone, lesson ? &*lesson : nullptr);
+}
+
+void set_servo(const Options& options, tick::ServoSettings& servo) {
+  servo.rate_hz = options.rate_hz;
+  servo.touch = *haptics::method_named(options.touch);
+  servo.removal = options.removing;
+  servo.removal.law = *edit::law_named(options.removal);
+  servo.guarded = options.guarded;
+  servo.vibration_gain = options.vibration;
+  servo.burr.radius = 0.5e-3 * options.burr_mm;
+  servo.burr.kind = options.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+  servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
+  servo.motor.torque = 1e-3 * options.torque_mnm;
+  servo.burr.teeth = options.teeth;
+  servo.drag_gain = options.drag;
+  servo.force.stiffness = options.stiffness;
+  servo.undo_bricks = options.undo_bricks;
+  servo.irrigated = options.irrigated;
 }
 
 Status run(Options options) {
@@ -337,6 +404,12 @@ Status run(Options options) {
     auto order = piece_order(text);
     if (!order) return order.error();
     orders.push_back(*order);
+  }
+  std::optional<Carry> carry;
+  if (!options.carry_piece.empty()) {
+    auto read = read_carry(options.carry_piece);
+    if (!read) return read.error();
+    carry = std::move(*read);
   }
   const Status possible = check_outputs(
       {options.volume.source, options.volume.labels, options.volume.materials, options.path_csv,
@@ -357,26 +430,13 @@ Status run(Options options) {
     doubts = surgeon::doubts(*path, *opened->bone, 0.5e-3 * options.burr_mm, options.path_csv);
   for (const std::string& doubt : doubts) fmt::print(stderr, "{}\n", doubt);
 
-  if (!orders.empty()) rest_at_end(*path);
+  if (carry) carry_on(*path, *carry);
+  if (!orders.empty() || carry) rest_at_end(*path);
 
   sim::SessionSettings settings;
   settings.realtime = options.realtime;
-  settings.servo.rate_hz = options.rate_hz;
-  settings.servo.touch = *haptics::method_named(options.touch);
   if (const Status taken = take_tool(options.tool, settings.servo); !taken) return taken;
-  settings.servo.removal = options.removing;
-  settings.servo.removal.law = *edit::law_named(options.removal);
-  settings.servo.guarded = options.guarded;
-  settings.servo.vibration_gain = options.vibration;
-  settings.servo.burr.radius = 0.5e-3 * options.burr_mm;
-  settings.servo.burr.kind = options.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
-  settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
-  settings.servo.motor.torque = 1e-3 * options.torque_mnm;
-  settings.servo.burr.teeth = options.teeth;
-  settings.servo.drag_gain = options.drag;
-  settings.servo.force.stiffness = options.stiffness;
-  settings.servo.undo_bricks = options.undo_bricks;
-  settings.servo.irrigated = options.irrigated;
+  set_servo(options, settings.servo);
   if (options.heat) {
     auto warming = heat_settings(options, opened->bone->tissues());
     if (!warming) return warming.error();
@@ -414,7 +474,8 @@ Status run(Options options) {
   }
   session.run(seconds, progress());
   edit::PieceStore store;
-  const Status put = interrupted() ? fine() : move_pieces(orders, session, store);
+  Status put = interrupted() ? fine() : move_pieces(orders, session, store);
+  if (put.ok() && carry && !interrupted()) put = carry_piece(*carry, session, store);
   const Status recorded = options.record.empty() ? fine() : recording.finish(session);
   if (!options.picture.empty()) {
     Status drawn = draw(options, place, session);
@@ -425,6 +486,19 @@ Status run(Options options) {
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
   return fine();
+}
+
+void add_pieces(CLI::App* command, const std::shared_ptr<Options>& options) {
+  command->add_option(
+      "--move-piece", options->move_pieces,
+      "X,Y,Z:DX,DY,DZ[:AX,AY,AZ]: after the motion, move the free piece nearest to "
+      "X,Y,Z by DX,DY,DZ [mm, LPS], and turn it about its centre by as many degrees "
+      "as AX,AY,AZ is long, about that axis; may be given more than once");
+  command->add_option(
+      "--carry-piece", options->carry_piece,
+      "X,Y,Z:FILE.csv: after the motion, lift the free piece nearest to X,Y,Z [mm, LPS] out of the "
+      "bone and carry it by the hand's further path (as --path; the spindle's column grips); the "
+      "bone stops it, and it is put down where it then is");
 }
 
 void add_results(CLI::App* command, const std::shared_ptr<Options>& options) {
@@ -539,11 +613,7 @@ void add(CLI::App& app, Todo& todo) {
                       "sagittal, coronal or axial[,MM]: everything done on one side of a plane is "
                       "also done on the other; the plane goes through the middle of the volume, or "
                       "MM to the left of, behind or above it");
-  command->add_option(
-      "--move-piece", options->move_pieces,
-      "X,Y,Z:DX,DY,DZ[:AX,AY,AZ]: after the motion, move the free piece nearest to "
-      "X,Y,Z by DX,DY,DZ [mm, LPS], and turn it about its centre by as many degrees "
-      "as AX,AY,AZ is long, about that axis; may be given more than once");
+  add_pieces(command, options);
   command->add_flag("--guard", options->guarded,
                     "energy guard: the hand never gets back more energy than it gave");
   command->add_flag("--heat", options->heat,

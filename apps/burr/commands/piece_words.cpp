@@ -57,6 +57,12 @@ Result<sim::PieceOrder> piece_order(const std::string& text) {
   return sim::PieceOrder{parts[0] * 1e-3, parts[1] * 1e-3, parts[2] * kDegree};
 }
 
+bool point_of(const std::string& text, Vec3& point) {
+  if (!numbers(text, point)) return false;
+  point *= 1e-3;
+  return true;
+}
+
 std::vector<MovedPiece> moved_pieces(const edit::PieceStore& store, const volume::Bone& bone,
                                      const scenario::Lesson* lesson) {
   std::vector<MovedPiece> all;

@@ -21,6 +21,9 @@ namespace burr::app {
 // "X,Y,Z:DX,DY,DZ" or "X,Y,Z:DX,DY,DZ:AX,AY,AZ"  [mm, mm, degrees].
 [[nodiscard]] Result<sim::PieceOrder> piece_order(const std::string& text);
 
+// "X,Y,Z" [mm] as a point [m]. False: it is none.
+[[nodiscard]] bool point_of(const std::string& text, math::Vec3& point);
+
 // A piece that was moved, as it lies.
 struct MovedPiece {
   std::uint32_t number = 0;                // 0: the first that was moved

@@ -1,5 +1,5 @@
-// edit/piece_move.h - a piece that has come free is put somewhere else: the command's data, and the
-// bricks that the servo then writes.
+// edit/piece_move.h - a piece that has come free is put somewhere else, or lifted out of the bone into a
+// hand: the command's data, and the bricks that the servo then writes.
 //
 // Plain structs. Frame: world (LPS) for the move, p_grid for bricks. Units: SI.
 #pragma once
@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "burr/edit/undo.h"
+#include "burr/math/pose.h"
+#include "burr/tool/tool.h"
 
 namespace burr::edit {
 
-// What the command `move_piece` says. It holds all that a replay needs.
+// What the commands `move_piece`, `lift_piece` and `shift_piece` say. It holds all that a replay needs.
 struct PieceMove {
   std::uint32_t piece = 0;  // number of the piece in this session, 0 the first that was moved
   std::array<std::int32_t, 3> seed = {0, 0, 0};  // a voxel of it, where it came free
@@ -21,8 +23,17 @@ struct PieceMove {
   std::array<double, 4> turn = {0, 0, 0, 1};  // unit quaternion x, y, z, w
   std::uint64_t writes = 0;  // BoneWriter::writes() of the bone that it was prepared from
   std::uint64_t bricks = 0;  // MovedBricks::hash
+  std::uint64_t body = 0;    // of lift_piece: PieceBody::hash
+  bool lifted = false;       // of move_piece: the piece is in a hand, and the bone is without it
 
   bool operator==(const PieceMove&) const = default;
+};
+
+// A piece in a hand. Frame of the tool: edit/piece_body.h.
+struct PieceBody {
+  tool::Tool tool;  // one part of the kind `grid`; none: the piece is not lifted
+  math::Pose at;    // world_from_tool, where the piece lay in the bone
+  std::uint64_t hash = 0;
 };
 
 // What the bricks hold after the move. A piece is prepared by another thread (piece_store.h).
@@ -32,6 +43,7 @@ struct MovedBricks {
   std::uint64_t writes = 0;       // of the bone that they were made from
   std::int64_t lost = 0;          // by the whole bone; below 0: gained  [units of volume_of.h]
   std::int64_t overlap = 0;       // of piece and other bone, counted once [units]; part of lost
+  PieceBody body;                 // of a piece that is lifted
 };
 
 }  // namespace burr::edit

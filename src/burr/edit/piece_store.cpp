@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "burr/base/hash.h"
+#include "burr/edit/piece_body.h"
 #include "burr/volume/volume_of.h"
 
 namespace burr::edit {
@@ -431,35 +432,32 @@ Result<PieceStore::Found> PieceStore::find(const Bone& bone, const Vec3& p, doub
   return *best;
 }
 
-Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMove& move) const {
-  Prepared out;
-  const auto bricks = std::make_shared<MovedBricks>();
-  out.bricks = bricks;
-  out.ready = std::make_shared<Ready>();
-  Ready& ready = *out.ready;
+// Where the piece lies, and which it is.
+Result<const PieceStore::Place*> PieceStore::look_up(const Bone& bone, const PieceMove& move,
+                                                     Ready& ready) const {
   ready.number = move.piece;
-  const Place* from = nullptr;
   if (move.piece < kept_.size()) {
     ready.kept = kept_[move.piece];
-    from = place_of(bone, *ready.kept);
+    const Place* const from = place_of(bone, *ready.kept);
     if (from == nullptr)
       return error(
           "the piece was cut, or bone grew on it, after it was moved; undo that, or cut it free");
-  } else {
-    const volume::PieceFinder finder(bone);
-    const Ijk seed(move.seed[0], move.seed[1], move.seed[2]);
-    const int piece = finder.piece_of(seed);
-    if (move.piece > kept_.size() || piece <= 0)
-      return error("there is no free piece any more where the move begins");
-    ready.kept = take(bone, finder, static_cast<std::size_t>(piece));
-    if (!ready.kept) return error("there is no free piece any more where the move begins");
-    from = ready.kept->places.front().get();
+    return from;
   }
-  const Kept& kept = *ready.kept;
+  const volume::PieceFinder finder(bone);
+  const Ijk seed(move.seed[0], move.seed[1], move.seed[2]);
+  const int piece = finder.piece_of(seed);
+  if (move.piece == kept_.size() && piece > 0)
+    ready.kept = take(bone, finder, static_cast<std::size_t>(piece));
+  if (!ready.kept) return error("there is no free piece any more where the move begins");
+  return ready.kept->places.front().get();
+}
 
-  // take out
-  Work work(bone);
-  for (const Print& print : from->prints) {
+namespace {
+
+// The bone becomes what it was before the piece was put there.
+void take_out(const std::vector<Print>& prints, Work& work) {
+  for (const Print& print : prints) {
     KeptBrick& brick = work.at(print.brick);
     for (int v = 0; v < kBrickVoxels; ++v) {
       if (print.put[v] == 0) continue;
@@ -467,6 +465,54 @@ Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMo
       brick.tissue[v] = print.under_tissue[v];
     }
   }
+}
+
+}  // namespace
+
+Result<PieceStore::Prepared> PieceStore::prepare_lift(const Bone& bone,
+                                                      const PieceMove& move) const {
+  Prepared out;
+  const auto bricks = std::make_shared<MovedBricks>();
+  out.bricks = bricks;
+  out.ready = std::make_shared<Ready>();
+  const auto from = look_up(bone, move, *out.ready);
+  if (!from) return from.error();
+  const Kept& kept = *out.ready->kept;
+  auto body = body_of(*kept.piece, kept.low, kept.high, kept.centre_grid);
+  if (!body) return body.error();
+  const Vec3 centre = bone.grid().world_from_grid(kept.centre_grid);
+  const Pose now = pose_of((*from)->move, centre);
+  bricks->body.tool = body->tool;
+  bricks->body.at = {now * centre, now.q};
+  bricks->body.hash = body->hash;
+  for (int axis = 0; axis < 3; ++axis)
+    bricks->body.hash = base::mix(bricks->body.hash, bricks->body.at.p[axis]);
+  for (const double part : {now.q.x(), now.q.y(), now.q.z(), now.q.w()})
+    bricks->body.hash = base::mix(bricks->body.hash, part);
+  Work work(bone);
+  take_out((*from)->prints, work);
+  find_changed(bone, work, *bricks);
+  bricks->writes = move.writes;
+  return out;
+}
+
+Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMove& move) const {
+  Prepared out;
+  const auto bricks = std::make_shared<MovedBricks>();
+  out.bricks = bricks;
+  out.ready = std::make_shared<Ready>();
+  Ready& ready = *out.ready;
+  Work work(bone);
+  if (move.lifted) {  // the bone is without it already
+    if (move.piece >= kept_.size()) return error("there is no such piece in the hand");
+    ready.number = move.piece;
+    ready.kept = kept_[move.piece];
+  } else {
+    const auto from = look_up(bone, move, ready);
+    if (!from) return from.error();
+    take_out((*from)->prints, work);
+  }
+  const Kept& kept = *ready.kept;
 
   // put down
   const auto way = way_of(bone.grid(), kept.centre_grid, kept.low, kept.high, move);
@@ -485,7 +531,7 @@ Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMo
 void PieceStore::accept(const Prepared& prepared) {
   const Ready& ready = *prepared.ready;
   if (ready.number == kept_.size()) kept_.push_back(ready.kept);
-  ready.kept->places.push_back(ready.place);
+  if (ready.place) ready.kept->places.push_back(ready.place);  // not of one that was lifted
 }
 
 std::vector<PieceStore::Moved> PieceStore::moved(const Bone& bone) const {
@@ -527,14 +573,7 @@ std::unique_ptr<Bone> PieceStore::taken_out(const Bone& bone, bool back) const {
   for (std::size_t n = kept_.size(); n-- > 0;) {
     const Place* const place = place_of(bone, *kept_[n]);
     if (place == nullptr || place->where_it_came_free) continue;
-    for (const Print& print : place->prints) {
-      KeptBrick& brick = work.at(print.brick);
-      for (int v = 0; v < kBrickVoxels; ++v) {
-        if (print.put[v] == 0) continue;
-        brick.field.voxel[v] = print.under[v];
-        brick.tissue[v] = print.under_tissue[v];
-      }
-    }
+    take_out(place->prints, work);
     out_of_place.push_back(kept_[n].get());
   }
   for (const Kept* const kept : out_of_place) {

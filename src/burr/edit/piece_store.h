@@ -6,6 +6,7 @@
 //     move = {found->number, found->seed, by, turn, writes};
 //     auto ready = store.prepare(bone, move);                // bricks for the servo
 //     ... the servo obeys ...   store.accept(*ready);
+//     auto ready = store.prepare_lift(bone, move);           // out of the bone, into a hand
 //
 // A piece is always resampled from what came free, by the whole move from there: any number of
 // moves blurs it once. A whole number of voxels without a turn does not blur it at all.
@@ -67,6 +68,11 @@ class PieceStore {
   // The bricks of this move on this bone; fills in move.bricks of the result's hash. move.writes is
   // only passed on. Error: there is no such piece, it was cut since, or it would leave the volume.
   [[nodiscard]] Result<Prepared> prepare(const volume::Bone& bone, const PieceMove& move) const;
+  // The bricks of the bone without this piece, and the piece as a body (edit/piece_body.h). The next
+  // move of it says `lifted`. Fills in move.bricks and move.body of the result. Errors as prepare(), and
+  // a piece that is too thin to be held.
+  [[nodiscard]] Result<Prepared> prepare_lift(const volume::Bone& bone,
+                                              const PieceMove& move) const;
   // The servo has obeyed.
   void accept(const Prepared& prepared);
 
@@ -91,6 +97,8 @@ class PieceStore {
  private:
   struct Kept;
   struct Place;
+  [[nodiscard]] Result<const Place*> look_up(const volume::Bone& bone, const PieceMove& move,
+                                             Ready& ready) const;
   [[nodiscard]] const Place* place_of(const volume::Bone& bone, const Kept& kept) const;
   [[nodiscard]] std::unique_ptr<volume::Bone> taken_out(const volume::Bone& bone, bool back) const;
   [[nodiscard]] std::shared_ptr<Kept> take(const volume::Bone& bone,

@@ -47,7 +47,7 @@ void UndoStore::copy(const volume::Bone& bone, BrickIndex brick, KeptBrick& to) 
 }
 
 void UndoStore::begin_stroke(std::uint64_t path_mark, std::int64_t removed) BURR_RT {
-  if (newest_ > done_) next_entry_ = stroke(done_).first;  // what could have been redone is gone
+  forget_undone();
   newest_ = done_ + 1;
   if (newest_ - oldest_ > strokes_.size()) ++oldest_;
   stroke(done_) = {next_entry_, 0, path_mark, removed, 0, 0};
@@ -55,6 +55,11 @@ void UndoStore::begin_stroke(std::uint64_t path_mark, std::int64_t removed) BURR
   ++serial_;
   open_ = true;
   overflowed_ = false;
+}
+
+void UndoStore::forget_undone() BURR_RT {
+  if (newest_ > done_) next_entry_ = stroke(done_).first;
+  newest_ = done_;
 }
 
 void UndoStore::end_stroke(std::int64_t removed, std::int64_t moved) BURR_RT {

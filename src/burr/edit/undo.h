@@ -59,6 +59,8 @@ class UndoStore {
   [[nodiscard]] bool can_redo() const BURR_RT { return !open_ && done_ < newest_; }
   [[nodiscard]] Range undo() BURR_RT;  // the last stroke; redo() then returns it first
   [[nodiscard]] Range redo() BURR_RT;
+  // Nothing can be redone any more.
+  void forget_undone() BURR_RT;
   [[nodiscard]] const KeptBrick& entry(std::uint64_t number) const BURR_RT {
     return entries_[number % entries_.size()];
   }

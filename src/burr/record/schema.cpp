@@ -221,6 +221,26 @@ const TickColumn kTickColumns[] = {
      BURR_AT(ledger.moved),
      false,
      true},
+    // a piece that was lifted out of the bone
+    {{71, "piece_state", Type::i32,
+      "a piece was lifted out of the bone: 1 it lies, 2 a hand holds it; absent: 0, none"},
+     BURR_AT(piece.state),
+     false,
+     true},
+    {{72, "piece_x_m", Type::f64, "its centre, world LPS; absent: 0 [m]"},
+     BURR_AT(piece.p.x()),
+     false,
+     true},
+    {{73, "piece_y_m", Type::f64, "[m]"}, BURR_AT(piece.p.y()), false, true},
+    {{74, "piece_z_m", Type::f64, "[m]"}, BURR_AT(piece.p.z()), false, true},
+    {{75, "piece_qx", Type::f64,
+      "its turn from where it came free, a unit quaternion; absent: 0 [1]"},
+     BURR_AT(piece.turn[0]),
+     false,
+     true},
+    {{76, "piece_qy", Type::f64, "[1]"}, BURR_AT(piece.turn[1]), false, true},
+    {{77, "piece_qz", Type::f64, "[1]"}, BURR_AT(piece.turn[2]), false, true},
+    {{78, "piece_qw", Type::f64, "[1]"}, BURR_AT(piece.turn[3]), false, true},
     {{35, "spindle_rad_per_s", Type::f64, "speed of the burr now [rad/s]"}, BURR_AT(spindle_rad_s)},
     {{39, "cutting_torque_nm", Type::f64, "torque of the bone on the burr [N m]"},
      BURR_AT(cutting_nm)},
@@ -479,14 +499,16 @@ constexpr const char* kCommandSchema = R"({
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
-  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind", "tool", "move_piece"]},
-  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty, 7 shaft; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; burr_kind 0 cutting, 1 diamond; tool number in tools, -1 the round burr; move_piece number of the piece, 0 the first that was moved; \"nan\", \"inf\", \"-inf\" as strings"},
-  "piece": {"type": "object", "description": "of move_piece", "properties": {
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind", "tool", "move_piece", "lift_piece", "shift_piece", "let_go", "leave_piece"]},
+  "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty, 7 shaft; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; burr_kind 0 cutting, 1 diamond; tool number in tools, -1 the round burr; move_piece and lift_piece number of the piece, 0 the first that was moved; \"nan\", \"inf\", \"-inf\" as strings"},
+  "piece": {"type": "object", "description": "of move_piece, lift_piece and shift_piece", "properties": {
    "seed": {"type": "array", "items": {"type": "integer"}, "description": "a voxel of the piece where it came free"},
    "by_m": {"type": "array", "items": {"type": "number"}, "description": "from where it came free, not from where it lay: after a turn about its centre, LPS [m]"},
    "turn_xyzw": {"type": "array", "items": {"type": "number"}, "description": "the turn, a unit quaternion"},
    "writes": {"type": "integer", "description": "how often the bone had been written when the move was prepared; another number: refused"},
-   "bricks": {"type": "string", "description": "hexadecimal, hash of the bricks after the move"}
+   "bricks": {"type": "string", "description": "hexadecimal, hash of the bricks after the move"},
+   "body": {"type": "string", "description": "of lift_piece: hexadecimal, hash of the distances to the piece's surface and of where it lay"},
+   "lifted": {"type": "boolean", "description": "of move_piece: the piece was lifted before; absent: it was not"}
   }}
  }
 })";
@@ -549,6 +571,14 @@ const char* command_name(tick::CommandKind kind) {
       return "tool";
     case tick::CommandKind::move_piece:
       return "move_piece";
+    case tick::CommandKind::lift_piece:
+      return "lift_piece";
+    case tick::CommandKind::shift_piece:
+      return "shift_piece";
+    case tick::CommandKind::let_go:
+      return "let_go";
+    case tick::CommandKind::leave_piece:
+      return "leave_piece";
   }
   return "";
 }
@@ -646,18 +676,29 @@ std::size_t tick_columns_size() {
   return size;
 }
 
+namespace {
+
+bool tells_of_piece(tick::CommandKind kind) {
+  return kind == tick::CommandKind::move_piece || kind == tick::CommandKind::lift_piece ||
+         kind == tick::CommandKind::shift_piece;
+}
+
+}  // namespace
+
 std::string to_json(const tick::CommandRow& row) {
   json object = {
       {"tick", row.tick}, {"kind", command_name(row.command.kind)}, {"value", row.command.value}};
   if (std::isnan(row.command.value)) object["value"] = "nan";
   if (std::isinf(row.command.value)) object["value"] = row.command.value > 0 ? "inf" : "-inf";
-  if (row.command.kind == tick::CommandKind::move_piece) {
+  if (tells_of_piece(row.command.kind)) {
     const edit::PieceMove& move = row.command.move;
     object["piece"] = {{"seed", move.seed},
                        {"by_m", move.by},
                        {"turn_xyzw", move.turn},
                        {"writes", move.writes},
                        {"bricks", hex(move.bricks)}};
+    if (move.body != 0) object["piece"]["body"] = hex(move.body);
+    if (move.lifted) object["piece"]["lifted"] = true;
   }
   return object.dump();
 }
@@ -677,20 +718,30 @@ bool numbers_from(const json& object, const char* name, std::array<T, N>& to) {
   return true;
 }
 
+bool hash_from(const json& object, const char* name, std::uint64_t& to) {
+  const auto found = object.find(name);
+  if (found == object.end() || !found->is_string()) return false;
+  const std::string text = found->get<std::string>();
+  if (text.size() < 3 || text.compare(0, 2, "0x") != 0) return false;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data() + 2, end, to, 16);
+  return read.ec == std::errc() && read.ptr == end;
+}
+
 bool move_from_json(const json& object, double number, edit::PieceMove& move) {
   constexpr double kMostPieces = 65536;
   const auto piece = object.find("piece");
   if (piece == object.end() || !piece->is_object() || !(number >= 0 && number < kMostPieces))
     return false;
-  const auto writes = piece->find("writes"), bricks = piece->find("bricks");
-  if (writes == piece->end() || !writes->is_number_unsigned() || bricks == piece->end() ||
-      !bricks->is_string())
+  const auto writes = piece->find("writes"), lifted = piece->find("lifted");
+  if (writes == piece->end() || !writes->is_number_unsigned() ||
+      !hash_from(*piece, "bricks", move.bricks))
     return false;
-  const std::string text = bricks->get<std::string>();
-  if (text.size() < 3 || text.compare(0, 2, "0x") != 0) return false;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data() + 2, end, move.bricks, 16);
-  if (read.ec != std::errc() || read.ptr != end) return false;
+  if (piece->contains("body") && !hash_from(*piece, "body", move.body)) return false;
+  if (lifted != piece->end()) {
+    if (!lifted->is_boolean()) return false;
+    move.lifted = lifted->get<bool>();
+  }
   move.piece = static_cast<std::uint32_t>(number);
   move.writes = writes->get<std::uint64_t>();
   return numbers_from(*piece, "seed", move.seed) && numbers_from(*piece, "by_m", move.by) &&
@@ -725,8 +776,7 @@ bool command_from_json(std::string_view text, tick::CommandRow& row) {
     if (*kind == name) {
       row.command.kind = known;
       row.command.move = {};
-      return known != tick::CommandKind::move_piece ||
-             move_from_json(object, row.command.value, row.command.move);
+      return !tells_of_piece(known) || move_from_json(object, row.command.value, row.command.move);
     }
   }
   return false;

@@ -83,6 +83,8 @@ void TimelineMaker::add(const Step& step) {
       [](const tick::Command& one) { return one.kind == tick::CommandKind::burr_radius; });
   for (const tick::Command& command : step.commands) {
     if (command.kind == tick::CommandKind::shed) continue;  // that one is the servo's
+    if (command.kind == tick::CommandKind::shift_piece || command.kind == tick::CommandKind::let_go)
+      continue;  // many, between a lift and where it is put down
     const bool refused =
         last != step.commands.rend() && &command == &*last && row.tool.radius != command.value;
     line_.events.push_back({t, command, refused});

@@ -25,49 +25,105 @@ edit::PieceMove further(const edit::PieceStore::Found& piece, const Vec3& by, co
   return move;
 }
 
-Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store, const PieceOrder& order,
-                              Progress& progress) {
-  constexpr double kRest = 0.2;   // the recorder has written every brick by then  [s]
+namespace {
+
+constexpr double kRest = 0.2;  // the recorder has written every brick by then  [s]
+
+// Runs until the servo has written the bricks that it was sent.
+Status wait_for_bricks(Session& session, Progress& progress) {
   constexpr double kStep = 0.05;  // [s]
   constexpr double kMost = 60;    // a piece of 10 million bricks' worth of ticks   [s]
-  session.run(kRest, progress);
+  for (double waited = 0; waited < kMost; waited += kStep) {
+    session.run(kStep, progress);
+    if (progress.cancelled()) return error(Trouble::interrupted, "stopped while a piece was moved");
+    const tick::MoveState now = session.move_state();
+    if (now == tick::MoveState::done) return fine();
+    if (now != tick::MoveState::refused) continue;
+    const std::uint32_t flags = session.outcome().flags;
+    return error(Trouble::usage, (flags & rt::kFlagReserve) != 0
+                                     ? "there is no room for the piece in its new place; raise "
+                                       "--reserve-bricks"
+                                 : (flags & rt::kFlagUndoFull) != 0
+                                     ? "the piece is too large to be undone; raise --undo-bricks"
+                                     : "the bone was changed while the piece was taken");
+  }
+  return error(Trouble::internal, "the piece was not put down in time");
+}
+
+// Sends a move that is whole but for what the bone says.
+Result<PieceMoved> put(Session& session, edit::PieceStore& store, const edit::PieceMove& move,
+                       double volume, Progress& progress) {
   const volume::Bone& bone = session.bone();
-  const auto piece = store.find(bone, order.near);
-  if (!piece) return piece.error();
-  const double angle = order.turn.norm();
-  const Quat turn =
-      angle > 0 ? Quat(Eigen::AngleAxisd(angle, order.turn / angle)) : Quat(Quat::Identity());
   PieceMoved done;
-  done.move = further(*piece, order.by, turn);
+  done.move = move;
+  done.volume = volume;
   done.move.writes = session.servo().writes_done();
   auto prepared = store.prepare(bone, done.move);
   if (!prepared) return prepared.error();
   done.move.bricks = prepared->bricks->hash;
   if (!session.move_piece(done.move, prepared->bricks))
     return error(Trouble::internal, "the command to move the piece did not reach the servo");
-  for (double waited = 0; waited < kMost; waited += kStep) {
-    session.run(kStep, progress);
-    if (progress.cancelled()) return error(Trouble::interrupted, "stopped while a piece was moved");
-    const tick::MoveState now = session.move_state();
-    if (now == tick::MoveState::refused) {
-      const std::uint32_t flags = session.outcome().flags;
-      return error(Trouble::usage, (flags & rt::kFlagReserve) != 0
-                                       ? "there is no room for the piece in its new place; raise "
-                                         "--reserve-bricks"
-                                   : (flags & rt::kFlagUndoFull) != 0
-                                       ? "the piece is too large to be undone; raise --undo-bricks"
-                                       : "the bone was changed while the piece was taken");
-    }
-    if (now != tick::MoveState::done) continue;
-    store.accept(*prepared);
-    const double voxel = bone.grid().voxel,
-                 unit = voxel * voxel * voxel / static_cast<double>(volume::kVoxelUnits);
-    done.volume = piece->volume;
-    done.lost = static_cast<double>(prepared->bricks->lost) * unit;
-    done.overlap = static_cast<double>(prepared->bricks->overlap) * unit;
-    return done;
-  }
-  return error(Trouble::internal, "the piece was not put down in time");
+  if (const Status written = wait_for_bricks(session, progress); !written) return written.error();
+  store.accept(*prepared);
+  const double voxel = bone.grid().voxel,
+               unit = voxel * voxel * voxel / static_cast<double>(volume::kVoxelUnits);
+  done.lost = static_cast<double>(prepared->bricks->lost) * unit;
+  done.overlap = static_cast<double>(prepared->bricks->overlap) * unit;
+  return done;
+}
+
+}  // namespace
+
+Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store, const PieceOrder& order,
+                              Progress& progress) {
+  session.run(kRest, progress);
+  const auto piece = store.find(session.bone(), order.near);
+  if (!piece) return piece.error();
+  const double angle = order.turn.norm();
+  const Quat turn =
+      angle > 0 ? Quat(Eigen::AngleAxisd(angle, order.turn / angle)) : Quat(Quat::Identity());
+  return put(session, store, further(*piece, order.by, turn), piece->volume, progress);
+}
+
+Result<PieceLifted> lift_piece(Session& session, edit::PieceStore& store, const Vec3& near,
+                               Progress& progress) {
+  session.run(kRest, progress);
+  const auto piece = store.find(session.bone(), near);
+  if (!piece) return piece.error();
+  PieceLifted lifted;
+  lifted.move = further(*piece, Vec3::Zero(), Quat::Identity());
+  lifted.volume = piece->volume;
+  lifted.centre = piece->centre;
+  lifted.move.writes = session.servo().writes_done();
+  const auto prepared = store.prepare_lift(session.bone(), lifted.move);
+  if (!prepared) return prepared.error();
+  lifted.move.bricks = prepared->bricks->hash;
+  lifted.move.body = prepared->bricks->body.hash;
+  if (!session.lift_piece(lifted.move, prepared->bricks))
+    return error(Trouble::internal, "the command to lift the piece did not reach the servo");
+  if (const Status written = wait_for_bricks(session, progress); !written) return written.error();
+  store.accept(*prepared);
+  return lifted;
+}
+
+edit::PieceMove put_at(std::uint32_t piece, const Vec3& centre, const math::Pose& body) {
+  edit::PieceMove move;
+  move.piece = piece;
+  move.lifted = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    move.by[axis] = body.p[static_cast<int>(axis)] - centre[static_cast<int>(axis)];
+  const Quat turn = math::normalized(body.q);
+  move.turn = {turn.x(), turn.y(), turn.z(), turn.w()};
+  return move;
+}
+
+Result<PieceMoved> put_down(Session& session, edit::PieceStore& store, const PieceLifted& lifted,
+                            Progress& progress) {
+  session.run(kRest, progress);
+  if (!session.servo().piece().lifted()) return error(Trouble::usage, "no piece is in the hand");
+  return put(session, store,
+             put_at(lifted.move.piece, lifted.centre, session.servo().piece().pose()),
+             lifted.volume, progress);
 }
 
 bool moves_pieces(record::Player& player) {
@@ -86,10 +142,12 @@ Result<edit::PieceStore> moved_in(record::Player& player, volume::Bone& bone, do
     const double t = static_cast<double>(step.row.tick) / rate;
     if (until >= 0 && t > until) break;
     for (const tick::Command& command : step.commands) {
-      if (command.kind != tick::CommandKind::move_piece || step.row.tick == 0) continue;
+      const bool lifts = command.kind == tick::CommandKind::lift_piece;
+      if ((command.kind != tick::CommandKind::move_piece && !lifts) || step.row.tick == 0) continue;
       const Status there = player.bone_at(static_cast<double>(step.row.tick - 1) / rate, bone);
       if (!there) return there.error();
-      const auto prepared = store.prepare(bone, command.move);
+      const auto prepared =
+          lifts ? store.prepare_lift(bone, command.move) : store.prepare(bone, command.move);
       if (prepared && prepared->bricks->hash == command.move.bricks) store.accept(*prepared);
     }
   }

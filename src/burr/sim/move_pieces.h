@@ -40,6 +40,24 @@ struct PieceMoved {
 [[nodiscard]] Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store,
                                             const PieceOrder& order, Progress& progress);
 
+// A piece that is out of the bone (tick/held_piece.h).
+struct PieceLifted {
+  edit::PieceMove move;                    // its number
+  double volume = 0;                       // as it came free [m^3]
+  math::Vec3 centre = math::Vec3::Zero();  // where it came free
+};
+
+// Lifts the free piece that is nearest to `near` out of the bone, so that a hand can hold it. Lets the
+// session run until it is done. Errors as move_piece(), and a piece too thin to be held.
+[[nodiscard]] Result<PieceLifted> lift_piece(Session& session, edit::PieceStore& store,
+                                             const math::Vec3& near, Progress& progress);
+// Puts it down where it is now: where the bone stopped it. Errors as move_piece().
+[[nodiscard]] Result<PieceMoved> put_down(Session& session, edit::PieceStore& store,
+                                          const PieceLifted& lifted, Progress& progress);
+// The move that puts it down at this pose of its body.
+[[nodiscard]] edit::PieceMove put_at(std::uint32_t piece, const math::Vec3& centre,
+                                     const math::Pose& body);
+
 // True: the recording has a command that moves a piece. Reads all commands.
 [[nodiscard]] bool moves_pieces(record::Player& player);
 

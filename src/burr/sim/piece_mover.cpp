@@ -56,18 +56,19 @@ void PieceMover::run() {
   }
   known_ = finder_.pieces();
   for (;;) {
-    std::optional<edit::PieceMove> move;
-    bool list = false;
+    std::optional<Wanted> move;
+    bool list = false, away = false;
     {
       std::unique_lock lock(mutex_);
       wake_.wait_for(lock, kLook, [this] { return stopping_ || list_wanted_ || move_wanted_; });
       if (stopping_) return;
       move = std::exchange(move_wanted_, {});
       list = std::exchange(list_wanted_, false);
+      away = away_;
     }
     if (move) prepare(*move);
     if (list) list_pieces();
-    if (!move && !list) notice();
+    if (!move && !list && !away) notice();
   }
 }
 
@@ -133,7 +134,8 @@ void PieceMover::list_pieces() {
   if (copied) list_ = std::move(pieces);
 }
 
-void PieceMover::prepare(edit::PieceMove move) {
+void PieceMover::prepare(Wanted wanted) {
+  edit::PieceMove& move = wanted.move;
   auto copied = copy();
   edit::PieceStore store;
   {
@@ -145,10 +147,12 @@ void PieceMover::prepare(edit::PieceMove move) {
     ready.emplace(copied.error());
   } else {
     move.writes = copied->writes;
-    auto bricks = store.prepare(*copied->bone, move);
+    auto bricks =
+        wanted.lifts ? store.prepare_lift(*copied->bone, move) : store.prepare(*copied->bone, move);
     if (bricks) {
       move.bricks = bricks->bricks->hash;
-      ready.emplace(Prepared{move, std::move(*bricks)});
+      move.body = bricks->bricks->body.hash;
+      ready.emplace(Prepared{move, std::move(*bricks), wanted.lifts});
     } else {
       ready.emplace(bricks.error());
     }
@@ -157,7 +161,83 @@ void PieceMover::prepare(edit::PieceMove move) {
   ready_ = std::move(ready);
 }
 
-std::vector<PieceMover::News> PieceMover::look() {
+void PieceMover::want(const Wanted& wanted) {
+  state_ = State::preparing;
+  {
+    const std::lock_guard lock(mutex_);
+    move_wanted_ = wanted;
+    away_ = away_ || wanted.lifts;
+  }
+  wake_.notify_all();
+}
+
+// What has been prepared goes to the servo.
+void PieceMover::send(Result<Prepared>& ready) {
+  if (!ready) {
+    why_ = ready.error().text;
+    state_ = State::refused;
+    return;
+  }
+  under_way_ = std::move(*ready);
+  const bool sent = under_way_->lifts
+                        ? session_.lift_piece(under_way_->move, under_way_->bricks.bricks)
+                        : session_.move_piece(under_way_->move, under_way_->bricks.bricks);
+  state_ = sent ? State::sent : State::refused;
+  if (!sent) why_ = "another piece is being moved";
+}
+
+// What the servo made of it.
+void PieceMover::see_end() {
+  const tick::MoveState now = session_.move_state();
+  if (now == tick::MoveState::refused) {
+    why_ = "the bone was changed, or there is no room for the piece";
+    state_ = State::refused;
+    return;
+  }
+  if (now != tick::MoveState::done) return;
+  const double voxel = session_.bone().grid().voxel;
+  overlap_ = static_cast<double>(under_way_->bricks.bricks->overlap) * voxel * voxel * voxel /
+             static_cast<double>(volume::kVoxelUnits);
+  state_ = under_way_->lifts ? State::lifted : State::put;
+  if (state_ == State::put) lifted_.reset();
+  const std::lock_guard lock(mutex_);
+  store_.accept(under_way_->bricks);
+  list_.reset();
+}
+
+// Of a piece that is out of the bone, or was a moment ago.
+void PieceMover::see_lifted(const tick::PieceRow& piece) {
+  const bool there = piece.state != tick::PieceRow::kNone;
+  if (lifted_ && state_ == State::refused && !lifted_->seen) lifted_.reset();  // it never came out
+  if (lifted_ && state_ == State::refused) {  // it could not be put down
+    state_ = State::lifted;
+    refusal_ = true;
+  }
+  if (lifted_ && state_ == State::lifted) {
+    lifted_->seen = lifted_->seen || there;
+    // what it was told before, as where to go, has been done by then
+    constexpr int kLooks = 3;
+    lifted_->rested = there && piece.p == lifted_->last ? lifted_->rested + 1 : 0;
+    lifted_->last = piece.p;
+    const bool rested = lifted_->rested >= kLooks;
+    if (lifted_->seen && !there) {
+      lifted_.reset();
+      state_ = State::none;
+    } else if (lifted_->seen && std::exchange(lifted_->leaves, false)) {
+      session_.command({tick::CommandKind::leave_piece, 0});
+    } else if (lifted_->puts_down && piece.state == tick::PieceRow::kHeld) {
+      session_.command({tick::CommandKind::let_go, 0});
+    } else if (lifted_->puts_down && rested) {
+      lifted_->puts_down = false;
+      const math::Quat turn(piece.turn[3], piece.turn[0], piece.turn[1], piece.turn[2]);
+      want({put_at(lifted_->number, lifted_->centre, {piece.p, turn}), false});
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  away_ = lifted_.has_value();
+}
+
+std::vector<PieceMover::News> PieceMover::look(const tick::PieceRow& piece) {
   std::optional<Result<Prepared>> ready;
   std::vector<News> news;
   {
@@ -165,33 +245,33 @@ std::vector<PieceMover::News> PieceMover::look() {
     ready = std::exchange(ready_, {});
     news = std::exchange(news_, {});
   }
-  if (ready && !ready->ok()) {
-    why_ = ready->error().text;
-    state_ = State::refused;
-  } else if (ready) {
-    under_way_ = std::move(**ready);
-    if (session_.move_piece(under_way_->move, under_way_->bricks.bricks)) {
-      state_ = State::sent;
-    } else {
-      why_ = "another piece is being moved";
-      state_ = State::refused;
-    }
-  }
-  if (state_ != State::sent) return news;
-  const tick::MoveState now = session_.move_state();
-  if (now == tick::MoveState::refused) {
-    why_ = "the bone was changed, or there is no room for the piece";
-    state_ = State::refused;
-  } else if (now == tick::MoveState::done) {
-    const double voxel = session_.bone().grid().voxel;
-    overlap_ = static_cast<double>(under_way_->bricks.bricks->overlap) * voxel * voxel * voxel /
-               static_cast<double>(volume::kVoxelUnits);
-    state_ = State::put;
-    const std::lock_guard lock(mutex_);
-    store_.accept(under_way_->bricks);
-    list_.reset();
-  }
+  if (ready) send(*ready);
+  if (state_ == State::sent) see_end();
+  see_lifted(piece);
   return news;
+}
+
+bool PieceMover::lift(const edit::PieceStore::Found& piece) {
+  if (lifted_ || state_ == State::preparing || state_ == State::sent) return false;
+  lifted_ = Lifted{piece.number, piece.centre};
+  want({further(piece, math::Vec3::Zero(), math::Quat::Identity()), true});
+  return true;
+}
+
+void PieceMover::shift(const math::Pose& body) {
+  if (state_ != State::lifted) return;
+  edit::PieceMove to = put_at(lifted_->number, math::Vec3::Zero(), body);
+  session_.command({tick::CommandKind::shift_piece, static_cast<double>(to.piece), to});
+}
+
+bool PieceMover::put_down() {
+  if (!lifted_) return false;
+  lifted_->puts_down = true;
+  return true;
+}
+
+void PieceMover::leave() {
+  if (lifted_) lifted_->leaves = true;
 }
 
 void PieceMover::take() {
@@ -210,13 +290,8 @@ std::shared_ptr<const std::vector<edit::PieceStore::Found>> PieceMover::list() c
 
 bool PieceMover::put(const edit::PieceStore::Found& piece, const math::Vec3& by,
                      const math::Quat& turn) {
-  if (state_ == State::preparing || state_ == State::sent) return false;
-  state_ = State::preparing;
-  {
-    const std::lock_guard lock(mutex_);
-    move_wanted_ = further(piece, by, turn);
-  }
-  wake_.notify_all();
+  if (lifted_ || state_ == State::preparing || state_ == State::sent) return false;
+  want({further(piece, by, turn), false});
   return true;
 }
 

@@ -6,6 +6,8 @@
 //     for (const auto& news = mover.look(); ...)           // what came free since the last call
 //     mover.take();                                        // copies the bone; then list() is whole
 //     mover.put(number, by, turn);  mover.state()          // until put or refused
+//     mover.lift(piece);                                   // or: out of the bone, into the hand
+//     mover.put_down(); or mover.leave();                  // where it is; where it lay
 //
 // A thread of its own follows the bone twice a second, reads only what changed, and not while bone
 // is being cut. The servo never waits for it.
@@ -23,6 +25,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "burr/edit/piece_store.h"
@@ -49,17 +52,31 @@ class PieceMover {
     std::size_t count = 1;  // of dust: how many at once
   };
   // Also sends what has been prepared, and notes what became of it. Call it in every picture.
-  [[nodiscard]] std::vector<News> look();
+  // piece: of the newest row.
+  [[nodiscard]] std::vector<News> look(const tick::PieceRow& piece = {});
 
   // Asks for the list of pieces that may be moved, with their bones.
   void take();
   // nullptr: not copied yet, or the bone has been written since; take() again.
   [[nodiscard]] std::shared_ptr<const std::vector<edit::PieceStore::Found>> list() const;
 
-  enum class State : std::uint8_t { none, preparing, sent, put, refused };
+  // lifted: the piece is out of the bone. It may also go back by itself, by an undo or reset: then none.
+  enum class State : std::uint8_t { none, preparing, sent, put, refused, lifted };
   // Puts the piece down, so much further from where it lies now. False: another is on its way.
   bool put(const edit::PieceStore::Found& piece, const math::Vec3& by, const math::Quat& turn);
+  // Lifts the piece out of the bone, so that a hand can hold it. False: another is on its way.
+  bool lift(const edit::PieceStore::Found& piece);
+  // A piece is out of the bone, or on its way out.
+  [[nodiscard]] bool lifts() const { return lifted_.has_value(); }
+  // The lifted piece is wanted there, as far as the bone lets it: the pose of its body.
+  void shift(const math::Pose& body);
+  // Puts the lifted piece down where it is then; the hand lets go of it first. False: none is lifted.
+  bool put_down();
+  // The lifted piece goes back to where it lay.
+  void leave();
   [[nodiscard]] State state() const { return state_; }
+  // A lifted piece could not be put down since the last call; it is still lifted.
+  [[nodiscard]] bool take_refusal() { return std::exchange(refusal_, false); }
   // Why it was refused, one sentence.
   [[nodiscard]] const std::string& why() const { return why_; }
   // Of the piece that was put down last [m^3].
@@ -76,12 +93,30 @@ class PieceMover {
   struct Prepared {
     edit::PieceMove move;
     edit::PieceStore::Prepared bricks;
+    bool lifts = false;
+  };
+  struct Lifted {
+    std::uint32_t number = 0;
+    math::Vec3 centre = math::Vec3::Zero();  // where it came free
+    bool seen = false;                       // in a row
+    bool puts_down = false;                  // once the hand has let go and it has come to rest
+    int rested = 0;                          // looks
+    math::Vec3 last = math::Vec3::Zero();    // place
+    bool leaves = false;                     // once it is out
+  };
+  struct Wanted {
+    edit::PieceMove move;
+    bool lifts = false;
   };
   void run();
   void notice();
   [[nodiscard]] Result<Copy> copy();
   void list_pieces();
-  void prepare(edit::PieceMove move);
+  void prepare(Wanted wanted);
+  void want(const Wanted& wanted);
+  void send(Result<Prepared>& ready);
+  void see_end();
+  void see_lifted(const tick::PieceRow& piece);
 
   Session& session_;
   volume::PieceFinder finder_;
@@ -90,12 +125,15 @@ class PieceMover {
   State state_ = State::none;
   std::string why_;
   double overlap_ = 0;
+  bool refusal_ = false;
   std::optional<Prepared> under_way_;
+  std::optional<Lifted> lifted_;
 
   mutable std::mutex mutex_;  // of everything below, and of store_
   std::condition_variable wake_;
   bool stopping_ = false, list_wanted_ = false;
-  std::optional<edit::PieceMove> move_wanted_;
+  std::optional<Wanted> move_wanted_;
+  bool away_ = false;  // a piece is: what comes and goes in the bone is no news
   std::vector<News> news_;
   std::shared_ptr<const std::vector<edit::PieceStore::Found>> list_;
   std::optional<Result<Prepared>> ready_;

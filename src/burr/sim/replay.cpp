@@ -23,6 +23,8 @@ std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
     return fmt::format("torque of {:.6g} N m instead of {:.6g} N m", is.contact.torque.norm(),
                        was.contact.torque.norm());
   if (was.contact.proxy != is.contact.proxy) return "another position of the burr";
+  if (was.piece.p != is.piece.p || was.piece.turn != is.piece.turn)
+    return "another place of the lifted piece";
   if (was.contact.flags != is.contact.flags)
     return fmt::format("flags {:#x} instead of {:#x}", is.contact.flags, was.contact.flags);
   if (was.ledger.removed != is.ledger.removed)
@@ -34,10 +36,12 @@ std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
 // The bricks of a move, made again. What the servo of the recording refused it refuses now.
 std::optional<edit::PieceStore::Prepared> lay_ready(const edit::PieceStore& pieces,
                                                     const volume::Bone& bone,
-                                                    const edit::PieceMove& move,
+                                                    const tick::Command& command,
                                                     tick::Servo& servo) {
+  const edit::PieceMove& move = command.move;
   if (servo.writes_done() != move.writes) return std::nullopt;
-  auto made = pieces.prepare(bone, move);
+  auto made = command.kind == tick::CommandKind::lift_piece ? pieces.prepare_lift(bone, move)
+                                                            : pieces.prepare(bone, move);
   if (!made) return std::nullopt;
   std::optional<edit::PieceStore::Prepared> ready = std::move(*made);
   if (!servo.lay_ready(*ready->bricks)) return std::nullopt;
@@ -93,8 +97,9 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     }
     std::optional<edit::PieceStore::Prepared> moving;
     for (const tick::Command& command : step.commands) {
-      if (command.kind == tick::CommandKind::move_piece && !moving)
-        moving = lay_ready(pieces, *bone, command.move, servo);
+      const bool moves = command.kind == tick::CommandKind::move_piece ||
+                         command.kind == tick::CommandKind::lift_piece;
+      if (moves && !moving) moving = lay_ready(pieces, *bone, command, servo);
       servo.commands().push(command);
     }
     hand.set(step.row.hand);

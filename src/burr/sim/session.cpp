@@ -130,12 +130,21 @@ Status Session::add_second_hand(std::unique_ptr<device::Device> device,
 
 bool Session::move_piece(const edit::PieceMove& move,
                          std::shared_ptr<const edit::MovedBricks> bricks) {
+  return send({tick::CommandKind::move_piece, static_cast<double>(move.piece), move},
+              std::move(bricks));
+}
+
+bool Session::lift_piece(const edit::PieceMove& move,
+                         std::shared_ptr<const edit::MovedBricks> bricks) {
+  return send({tick::CommandKind::lift_piece, static_cast<double>(move.piece), move},
+              std::move(bricks));
+}
+
+bool Session::send(const tick::Command& command, std::shared_ptr<const edit::MovedBricks> bricks) {
   BURR_CHECK(bricks != nullptr);
   if (!servo_->lay_ready(*bricks)) return false;
   moving_ = std::move(bricks);
-  if (servo_->commands().push(
-          {tick::CommandKind::move_piece, static_cast<double>(move.piece), move}))
-    return true;
+  if (servo_->commands().push(command)) return true;
   servo_->take_back();
   return false;
 }

@@ -123,6 +123,9 @@ class Session {
   // being moved, or too many commands wait. move_state() says what became of it.
   [[nodiscard]] bool move_piece(const edit::PieceMove& move,
                                 std::shared_ptr<const edit::MovedBricks> bricks);
+  // The same with `lift_piece`: the piece goes out of the bone, to be held (tick/held_piece.h).
+  [[nodiscard]] bool lift_piece(const edit::PieceMove& move,
+                                std::shared_ptr<const edit::MovedBricks> bricks);
   [[nodiscard]] tick::MoveState move_state() const { return servo_->move_state(); }
   // How often the bone was written (edit/bone_writer.h); any thread.
   [[nodiscard]] std::uint64_t writes() const { return servo_->writes_done(); }
@@ -155,6 +158,8 @@ class Session {
   [[nodiscard]] const rt::ThreadGrant& grant() const { return grant_; }
 
  private:
+  [[nodiscard]] bool send(const tick::Command& command,
+                          std::shared_ptr<const edit::MovedBricks> bricks);
   Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Device> device,
           const SessionSettings& settings);
   void begin(std::uint64_t ticks);

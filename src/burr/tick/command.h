@@ -30,14 +30,18 @@ enum class CommandKind : std::uint8_t {
   mirror_j,       // likewise across j
   mirror_k,       // likewise across k
   mirror_off,
-  burr_kind,   // value: 0 cutting, 1 diamond
-  tool,        // value: number in the session's list of tools; -1: the round burr
-  move_piece,  // value: number of the piece; the rest is in `move`
+  burr_kind,    // value: 0 cutting, 1 diamond
+  tool,         // value: number in the session's list of tools; -1: the round burr
+  move_piece,   // value: number of the piece; the rest is in `move`
+  lift_piece,   // out of the bone, to be held: likewise
+  shift_piece,  // the lifted piece is wanted there: its centre at move.by, turned by move.turn
+  let_go,  // the hand lets go of the lifted piece, and may hold it again once its button was up
+  leave_piece,  // the lifted piece goes back to where it lay in the bone
 };
 struct Command {
   CommandKind kind = CommandKind::spindle_speed;
   double value = 0;
-  edit::PieceMove move = {};  // of move_piece
+  edit::PieceMove move = {};  // of commands for pieces
 };
 
 }  // namespace burr::tick

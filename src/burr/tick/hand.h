@@ -69,6 +69,15 @@ class Hand {
   // For it, after engage(); nullptr: this hand's tool has no such proxy, or hovers.
   [[nodiscard]] haptics::SixProxy* six() BURR_RT { return hovers() ? nullptr : method_->six(); }
   [[nodiscard]] double stiffness() const BURR_RT { return force_.stiffness; }
+  // Instead of engage(), with a method whose tool goes to the hand by itself (held_piece.h).
+  void hold() BURR_RT { engaged_ = true; }
+  // Instead of feel(): the hand is there and holds nothing.
+  void hold_nothing() BURR_RT {
+    if (engaged_) lift();
+    touch_ = {};
+    parts_ = nullptr;
+    touch_.proxy = state_.world_from_tool.p;
+  }
   // Instead of feel(): the hand feels a spring to the tool, which others hold.
   void feel_held_tool() BURR_RT;
   // Instead of all these: no usable reading.

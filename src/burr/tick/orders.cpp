@@ -79,12 +79,25 @@ void Orders::obey(const Command& command, std::uint32_t& flags) BURR_RT {
     case CommandKind::undo:
     case CommandKind::redo:
     case CommandKind::reset:
+    case CommandKind::leave_piece:
       begin_restore(command.kind);
       break;
     case CommandKind::move_piece:
-      parts_.restore.begin_move(command.move, flags);
+    case CommandKind::lift_piece:
+    case CommandKind::let_go:
+    case CommandKind::shift_piece:
+      obey_on_piece(command, flags);
       break;
   }
+}
+
+void Orders::obey_on_piece(const Command& command, std::uint32_t& flags) BURR_RT {
+  if (command.kind == CommandKind::let_go)
+    parts_.piece.let_go();
+  else if (command.kind == CommandKind::shift_piece)
+    shift_piece(command.move);
+  else
+    parts_.restore.begin_move(command, flags);
 }
 
 // Refused where the larger head has no room.
@@ -93,7 +106,9 @@ void Orders::set_stiffness(double stiffness) BURR_RT {
       haptics::coupling_of(parts_.hand.spec(), stiffness, settings_.rate_hz);
   settings_.force.stiffness = springs.stiffness;
   // k_r stays, so L changes
-  if (parts_.hand.turned() && springs.lever > 0) parts_.touch_by.couple(springs.lever);
+  if (!parts_.hand.turned() || springs.lever <= 0) return;
+  parts_.touch_by.couple(springs.lever);
+  parts_.piece.couple(springs.lever);
 }
 
 void Orders::set_radius(double radius) BURR_RT {
@@ -116,8 +131,10 @@ void Orders::set_law(double law) BURR_RT {
 void Orders::set_shed(double shed) BURR_RT {
   if (shed < 0 || shed >= kShedSteps) return;
   parts_.controls.shed = shed_requested_ = static_cast<Shed>(static_cast<int>(shed));
-  parts_.touch_by.set_max_moves(
-      parts_.controls.shed == Shed::touch ? kFewMoves : haptics::ProxySettings{}.max_moves);
+  const int moves =
+      parts_.controls.shed == Shed::touch ? kFewMoves : haptics::ProxySettings{}.max_moves;
+  parts_.touch_by.set_max_moves(moves);
+  parts_.piece.set_max_moves(moves);
 }
 
 // The tool may stand in bone, where ours cannot begin: then the force fades, and touch begins again
@@ -137,6 +154,21 @@ void Orders::take_tool(double number, std::uint32_t& flags) BURR_RT {
   if (!parts_.touch_by.take(is)) parts_.hand.release(rt::kFlagWaiting, flags);
   parts_.hand.use(parts_.touch_by.now(), parts_.touch_by.tool());
   parts_.cutting.take_tool();
+}
+
+// A command may come from a file that says anything.
+void Orders::shift_piece(const edit::PieceMove& move) BURR_RT {
+  constexpr double kFarthest = 1;  // [m]
+  math::Pose goal;
+  double square = 0;
+  for (const double part : move.turn) square += part * part;
+  if (!(std::abs(square - 1) < 1e-6)) return;
+  goal.q = math::Quat(move.turn[3], move.turn[0], move.turn[1], move.turn[2]);
+  for (int axis = 0; axis < 3; ++axis) {
+    goal.p[axis] = move.by[static_cast<std::size_t>(axis)];
+    if (!(std::abs(goal.p[axis]) < kFarthest)) return;
+  }
+  parts_.piece.shift(goal, parts_.hand.state().world_from_tool);
 }
 
 void Orders::begin_restore(CommandKind kind) BURR_RT {

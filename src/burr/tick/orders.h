@@ -13,6 +13,7 @@
 #include "burr/tick/command.h"
 #include "burr/tick/cutting.h"
 #include "burr/tick/hand.h"
+#include "burr/tick/held_piece.h"
 #include "burr/tick/outbox.h"
 #include "burr/tick/restore.h"
 #include "burr/tick/settings.h"
@@ -31,6 +32,7 @@ class Orders {
     TouchMethods& touch_by;
     Cutting& cutting;
     Restore& restore;
+    HeldPiece& piece;
     Outbox& outbox;
   };
   Orders(const volume::Grid& grid, const Parts& parts)
@@ -45,6 +47,7 @@ class Orders {
 
  private:
   void obey(const Command& command, std::uint32_t& flags) BURR_RT;
+  void obey_on_piece(const Command& command, std::uint32_t& flags) BURR_RT;
   void set_stiffness(double stiffness) BURR_RT;
   void set_radius(double radius) BURR_RT;
   void set_mode(double mode) BURR_RT;
@@ -53,6 +56,7 @@ class Orders {
   void set_method(double method, std::uint32_t& flags) BURR_RT;
   void take_tool(double number, std::uint32_t& flags) BURR_RT;
   void begin_restore(CommandKind kind) BURR_RT;
+  void shift_piece(const edit::PieceMove& move) BURR_RT;
 
   const volume::Grid& grid_;
   Parts parts_;

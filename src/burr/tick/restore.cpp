@@ -17,19 +17,27 @@ constexpr double kRestorePerSecond = 16e3;  // bricks; about as many as a deep c
 
 Restore::Restore(const volume::Bone& bone, const volume::IsoVertices& surface,
                  edit::UndoStore& undo, edit::BoneWriter& writer, const ServoSettings& settings,
-                 Hand& hand)
+                 Hand& hand, HeldPiece& piece)
     : bone_(bone),
       surface_(surface),
       undo_(undo),
       writer_(writer),
       settings_(settings),
       hand_(hand),
+      piece_(piece),
       dt_(1.0 / settings.rate_hz),
       path_(kPath) {}
 
 bool Restore::begin(CommandKind kind) BURR_RT {
   if (active()) return false;
-  if (undo_.stroke_open()) undo_.end_stroke(writer_.account().removed);
+  if (kind == CommandKind::leave_piece ? !lifted_.now : lifted_.now && kind == CommandKind::redo)
+    return false;
+  if (kind == CommandKind::leave_piece) kind = CommandKind::undo;
+  if (undo_.stroke_open())
+    undo_.end_stroke(writer_.account().removed, lifted_.now ? lifted_.lost : 0);
+  back_ = lifted_.now;
+  if (lifted_.now) piece_.drop();
+  lifted_ = {};
   if (kind == CommandKind::undo) {
     if (!undo_.can_undo()) return false;
     range_ = undo_.undo();
@@ -69,21 +77,35 @@ bool Restore::has_room(const edit::MovedBricks& bricks) const BURR_RT {
   return fresh <= bone_.free_slots();
 }
 
-void Restore::begin_move(const edit::PieceMove& move, std::uint32_t& flags) BURR_RT {
+// Are these the bricks of this command, and is there what they begin from?
+bool Restore::may_move(const Command& command, const edit::MovedBricks& bricks) const BURR_RT {
+  const edit::PieceMove& move = command.move;
+  if (active() || bricks.hash != move.bricks || move.writes != writer_.writes_done()) return false;
+  if (command.kind == CommandKind::lift_piece)
+    return !lifted_.now && bricks.body.tool.count > 0 && bricks.body.hash == move.body;
+  return move.lifted == lifted_.now && (!lifted_.now || move.piece == lifted_.piece);
+}
+
+void Restore::begin_move(const Command& command, std::uint32_t& flags) BURR_RT {
   const edit::MovedBricks* const bricks = ready_.exchange(nullptr, std::memory_order_acquire);
   if (bricks == nullptr) return;
-  const bool is_this = bricks->hash == move.bricks && move.writes == writer_.writes_done();
-  const bool room = !is_this || has_room(*bricks);
-  const bool undoable = !is_this || bricks->bricks.size() <= undo_.room();
+  const bool may = may_move(command, *bricks);
+  const bool room = !may || has_room(*bricks);
+  const bool undoable = !may || bricks->bricks.size() + lifted_.bricks <= undo_.room();
   if (!room) flags |= rt::kFlagReserve;
   if (!undoable) flags |= rt::kFlagUndoFull;
-  if (active() || !is_this || !room || !undoable) {
+  if (!may || !room || !undoable) {
     move_state_.store(MoveState::refused, std::memory_order_release);
     return;
   }
-  if (undo_.stroke_open()) undo_.end_stroke(writer_.account().removed);
-  undo_.begin_stroke(path_end_, writer_.account().removed);
-  kind_ = CommandKind::move_piece;
+  if (!lifted_.now) {
+    if (undo_.stroke_open()) undo_.end_stroke(writer_.account().removed);
+    undo_.begin_stroke(path_end_, writer_.account().removed);
+  }
+  piece_.drop();
+  kind_ = command.kind;
+  if (kind_ == CommandKind::lift_piece)
+    lifted_ = {true, command.move.piece, bricks->bricks.size(), bricks->lost};
   state_ = State::lifting;
   restored_ = 0;
   moving_ = bricks;
@@ -123,7 +145,7 @@ void Restore::step(std::uint32_t& flags) BURR_RT {
 }
 
 void Restore::lift(std::uint32_t& flags) BURR_RT {
-  if (settings_.tool >= 0 || kind_ == CommandKind::move_piece) {
+  if (settings_.tool >= 0 || moving_ != nullptr || back_) {
     // how it was turned on its way is not known: the hand is released, and engages again in free air
     hand_.release(rt::kFlagRestoring, flags);
     state_ = State::restoring;
@@ -158,14 +180,8 @@ void Restore::lift(std::uint32_t& flags) BURR_RT {
 
 void Restore::put_back(std::uint32_t& flags) BURR_RT {
   const auto most = static_cast<std::size_t>(std::max(1.0, std::ceil(kRestorePerSecond * dt_)));
-  if (kind_ == CommandKind::move_piece) {
-    const std::size_t count = moving_->bricks.size();
-    for (std::size_t n = 0; n < most && restored_ < count; ++n, ++restored_)
-      writer_.put(moving_->bricks[static_cast<std::size_t>(restored_)], flags);
-    if (restored_ < count) return;
-    writer_.account().moved += moving_->lost;
-    undo_.end_stroke(writer_.account().removed, moving_->lost);
-    state_ = State::settling;
+  if (moving_ != nullptr) {
+    lay(most, flags);
     return;
   }
   for (std::size_t n = 0; n < most && restored_ < range_.count; ++n, ++restored_) {
@@ -177,6 +193,7 @@ void Restore::put_back(std::uint32_t& flags) BURR_RT {
   }
   if (restored_ < range_.count) return;
   state_ = State::settling;
+  if (back_ && kind_ == CommandKind::undo) undo_.forget_undone();  // nobody can hold it again
   edit::Account& account = writer_.account();
   if (kind_ == CommandKind::reset)
     account.moved = 0;
@@ -188,10 +205,25 @@ void Restore::put_back(std::uint32_t& flags) BURR_RT {
     account.undone += kind_ == CommandKind::undo ? range_.removed : -range_.removed;
 }
 
+// Bricks of a move. The stroke of a lift stays open until the piece is put down.
+void Restore::lay(std::size_t most, std::uint32_t& flags) BURR_RT {
+  const std::size_t count = moving_->bricks.size();
+  for (std::size_t n = 0; n < most && restored_ < count; ++n, ++restored_)
+    writer_.put(moving_->bricks[static_cast<std::size_t>(restored_)], flags);
+  if (restored_ < count) return;
+  writer_.account().moved += moving_->lost;
+  state_ = State::settling;
+  if (kind_ == CommandKind::lift_piece) return;
+  undo_.end_stroke(writer_.account().removed, lifted_.lost + moving_->lost);
+  lifted_ = {};
+}
+
 void Restore::settle() BURR_RT {
   if (surface_.stale() != 0) return;
   state_ = State::none;
+  back_ = false;
   if (moving_ != nullptr) {
+    if (kind_ == CommandKind::lift_piece) piece_.lift(moving_->body);
     moving_ = nullptr;
     move_state_.store(MoveState::done, std::memory_order_release);
   }
@@ -200,7 +232,7 @@ void Restore::settle() BURR_RT {
 }
 
 void Restore::remember_path() BURR_RT {
-  if (!hand_.engaged() || active() || hand_.touch().lagging) return;
+  if (!hand_.engaged() || active() || lifted_.now || hand_.touch().lagging) return;
   const double step = bone_.grid().voxel / 2;
   if (path_end_ > 0 && math::norm(path_[(path_end_ - 1) % kPath] - hand_.tool()) < step) return;
   path_[path_end_++ % kPath] = hand_.tool();

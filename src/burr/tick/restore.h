@@ -20,6 +20,7 @@
 #include "burr/rt/rt.h"
 #include "burr/tick/command.h"
 #include "burr/tick/hand.h"
+#include "burr/tick/held_piece.h"
 #include "burr/tick/settings.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
@@ -31,9 +32,10 @@ enum class MoveState : std::uint8_t { none, waiting, moving, done, refused };
 class Restore {
  public:
   Restore(const volume::Bone& bone, const volume::IsoVertices& surface, edit::UndoStore& undo,
-          edit::BoneWriter& writer, const ServoSettings& settings, Hand& hand);
+          edit::BoneWriter& writer, const ServoSettings& settings, Hand& hand, HeldPiece& piece);
 
-  // kind: undo, redo or reset. False: one is in progress already, or there is nothing to put back.
+  // kind: undo, redo, reset or leave_piece. False: one is in progress already, or there is nothing to put
+  // back. While a piece is lifted an undo is a leave_piece, and nothing can be redone.
   bool begin(CommandKind kind) BURR_RT;
   [[nodiscard]] bool active() const BURR_RT { return state_ != State::none; }
 
@@ -45,10 +47,13 @@ class Restore {
   [[nodiscard]] MoveState move_state() const BURR_RT {
     return move_state_.load(std::memory_order_acquire);
   }
-  // Refused, and the bone stays as it is: it was changed since the bricks were made, nothing is
-  // ready, there is no room for the piece (kFlagReserve) or to undo it (kFlagUndoFull), or something
-  // else is in progress.
-  void begin_move(const edit::PieceMove& move, std::uint32_t& flags) BURR_RT;
+  // move_piece or lift_piece. Refused, and the bone stays as it is: it was changed since the bricks were made, nothing is
+  // ready, there is no room for the piece (kFlagReserve) or to undo it (kFlagUndoFull), something
+  // else is in progress, or another piece is lifted.
+  void begin_move(const Command& command, std::uint32_t& flags) BURR_RT;
+  // A piece is out of the bone, from the command until it is bone again: nothing else writes the bone.
+  // The stroke of its lift stays open, so that one undo takes the whole move back.
+  [[nodiscard]] bool lifted() const BURR_RT { return lifted_.now; }
   // A piece was moved in this session: bricks are recorded with their tissues.
   [[nodiscard]] bool has_moved() const BURR_RT { return has_moved_; }
   // A tick of it, instead of touch.
@@ -66,6 +71,9 @@ class Restore {
   [[nodiscard]] bool clear_of_what_returns(const math::Vec3& p) const BURR_RT;
   void lift(std::uint32_t& flags) BURR_RT;
   void put_back(std::uint32_t& flags) BURR_RT;
+  [[nodiscard]] bool may_move(const Command& command,
+                              const edit::MovedBricks& bricks) const BURR_RT;
+  void lay(std::size_t most, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] bool has_room(const edit::MovedBricks& bricks) const BURR_RT;
   void settle() BURR_RT;
 
@@ -75,6 +83,7 @@ class Restore {
   edit::BoneWriter& writer_;
   const ServoSettings& settings_;
   Hand& hand_;
+  HeldPiece& piece_;
   double dt_;
 
   static constexpr std::size_t kPath = 1 << 16;
@@ -90,6 +99,14 @@ class Restore {
   std::atomic<MoveState> move_state_ = MoveState::none;
   const edit::MovedBricks* moving_ = nullptr;
   bool has_moved_ = false;
+  struct Lifted {
+    bool now = false;
+    std::uint32_t piece = 0;
+    std::size_t bricks = 0;  // that the lift changed
+    std::int64_t lost = 0;   // by the bone  [units]
+  };
+  Lifted lifted_;
+  bool back_ = false;  // what is put back is a lifted piece
 };
 
 }  // namespace burr::tick

@@ -19,6 +19,14 @@
 
 namespace burr::tick {
 
+// A piece that was lifted out of the bone. Zero where there is none.
+struct PieceRow {
+  static constexpr std::int32_t kNone = 0, kLies = 1, kHeld = 2;
+  std::int32_t state = kNone;                 // held: by the hand of this row
+  math::Vec3 p = math::Vec3::Zero();          // its centre
+  std::array<double, 4> turn = {0, 0, 0, 0};  // from where it came free: unit quaternion x, y, z, w
+};
+
 // One per tick: the inputs, the outcome, and a hash of both and of the ledger.
 struct TickRow {
   std::uint64_t tick = 0;    // 0, 1, 2 ... of the session; time is tick / rate
@@ -28,6 +36,7 @@ struct TickRow {
   double spindle_rad_s = 0;  // speed of the burr now; below 0: turns backwards
   double cutting_nm = 0;     // torque of the bone on the burr        [N m]
   double cutting_w = 0;      // power that goes into the bone         [W]
+  PieceRow piece;            // after this tick
   tool::ToolState tool;      // in the hand, after this tick's commands; not part of the hash
   float took_us = 0;         // work of this tick, thread CPU time; not part of the hash
   float late_us = 0;         // after its due time; not part of the hash

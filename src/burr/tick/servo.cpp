@@ -21,6 +21,16 @@ HandSettings hand_settings(const ServoSettings& settings) {
           .turned = settings.turn_hand && settings.torque_gain > 0};
 }
 
+haptics::ProxySettings proxy_settings(const ServoSettings& settings) {
+  return {.radius = settings.burr.radius,
+          .wedge = settings.wedge,
+          .slip = settings.slip_m_s / settings.rate_hz,
+          .parts_rub = settings.tool_friction,
+          .push_out_speed = kRecovery / settings.rate_hz};
+}
+
+constexpr int kOrientation = 6;  // degrees of freedom of a device that tells how it is turned
+
 }  // namespace
 
 Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
@@ -31,20 +41,20 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       changed_(bone),
       undo_(bone, settings.undo_bricks),
       writer_(bone, surface, undo_, &changed_),
-      touch_by_(surface,
-                {.radius = settings.burr.radius,
-                 .wedge = settings.wedge,
-                 .slip = settings.slip_m_s / settings.rate_hz,
-                 .parts_rub = settings.tool_friction,
-                 .push_out_speed = kRecovery / settings.rate_hz},
-                settings.touch, &controls_.settings.tools, settings.tool),
+      touch_by_(surface, proxy_settings(settings), settings.touch, &controls_.settings.tools,
+                settings.tool),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),
       cutting_(bone, undo_, writer_, controls_, hand_),
-      restore_(bone, surface, undo_, writer_, controls_.settings, hand_),
+      piece_(surface, proxy_settings(settings), haptics::ShaftTouch::kLever,
+             device.spec().sensed >= kOrientation),
+      restore_(bone, surface, undo_, writer_, controls_.settings, hand_, piece_),
       outbox_(bone, changed_, controls_),
-      orders_(bone.grid(), {controls_, hand_, touch_by_, cutting_, restore_, outbox_}) {
+      orders_(bone.grid(), {controls_, hand_, touch_by_, cutting_, restore_, piece_, outbox_}) {
   hand_.use(touch_by_.now(), touch_by_.tool());
-  if (hand_.turned()) touch_by_.couple(coupling_of(hand_.spec(), controls_.settings).lever);
+  if (!hand_.turned()) return;
+  const double lever = coupling_of(hand_.spec(), controls_.settings).lever;
+  touch_by_.couple(lever);
+  piece_.couple(lever);
 }
 
 void Servo::set_second(SecondHand* second) {
@@ -61,8 +71,9 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   const bool usable = hand_.read(lost, flags);
   row_.hand = hand_.state();
   orders_.take(row_.tick, flags);
+  choose_touch();
   note_tool();
-  cutting_.turn(usable ? hand_.state().pedal : 0);
+  cutting_.turn(usable && !restore_.lifted() ? hand_.state().pedal : 0);
   if (second_ != nullptr) second_->read(lost, restore_.active());
 
   // touch
@@ -89,7 +100,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   restore_.remember_path();
 
   // and the account of it all
-  outbox_.note_released(hand_.released());
+  outbox_.note_released(hand_.released() && !piece_.lifted());
   finish_row(sent);
   hand_.faults().note(row_);
   if (second_ != nullptr) second_->finish();
@@ -97,7 +108,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
 }
 
 void Servo::cut(const Vec3& touched) BURR_RT {
-  const bool may = !restore_.active();
+  const bool may = !restore_.active() && !restore_.lifted();
   cutting_.cut(row_.tick, touched, may, restore_.path_mark(), row_.contact.flags);
   if (second_ != nullptr) second_->cut(may, restore_.path_mark());
   // twice as much changes in a mirror or by a second tool, and the hand's side must not be later
@@ -115,9 +126,34 @@ void Servo::publish() BURR_RT {
   outbox_.publish(row_, tissue_changes());
 }
 
+// A piece that was lifted is in the hand in place of its tool.
+void Servo::choose_touch() BURR_RT {
+  if (piece_.lifted())
+    hand_.use(piece_);
+  else
+    hand_.use(touch_by_.now(), touch_by_.tool());
+}
+
+// will_feel() with a piece.
+bool Servo::will_carry(bool usable) BURR_RT {
+  if (!piece_.grips(hand_.state(), usable)) {
+    hand_.hold_nothing();
+    if (usable) piece_.rest(hand_.state().world_from_tool.p);
+    return false;
+  }
+  if (!hand_.engaged()) {
+    piece_.grab(hand_.state().world_from_tool);
+    hand_.hold();
+  }
+  const double mu = cutting_.friction();
+  piece_.set_friction(mu, controls_.settings.kinetic_share * mu);
+  return true;
+}
+
 // The steps before touch; false: the hand feels nothing, or what restore.h gives it.
 bool Servo::will_feel(bool usable) BURR_RT {
   if (!usable) {
+    if (piece_.lifted()) static_cast<void>(will_carry(false));
     hand_.skip_touch();
     return false;
   }
@@ -127,6 +163,7 @@ bool Servo::will_feel(bool usable) BURR_RT {
     row_.contact.flags |= rt::kFlagRestoring;
     return false;
   }
+  if (piece_.lifted()) return will_carry(usable);
   if (hand_.hovers()) hand_.set_down();
   if (!hand_.engage()) return false;
   const double mu = cutting_.friction();
@@ -154,6 +191,7 @@ void Servo::finish_row(const Hand::Sent& sent) BURR_RT {
   if (surface_.exhausted()) flags |= rt::kFlagReserve;
   if (controls_.shed >= Shed::removal_2) flags |= rt::kFlagPutOff;
   if (cutting_.spindle().stalled()) flags |= rt::kFlagStalled;
+  row_.piece = piece_.row();
   row_.ledger = writer_.ledger();
   row_.spindle_rad_s = cutting_.spindle().speed();
   row_.cutting_nm = cutting_.now().torque;

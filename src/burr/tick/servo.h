@@ -29,6 +29,7 @@
 #include "burr/tick/cutting.h"
 #include "burr/tick/fault_report.h"
 #include "burr/tick/hand.h"
+#include "burr/tick/held_piece.h"
 #include "burr/tick/orders.h"
 #include "burr/tick/outbox.h"
 #include "burr/tick/restore.h"
@@ -96,6 +97,8 @@ class Servo {
   [[nodiscard]] const edit::UndoStore& undo_store() const BURR_RT { return undo_; }
   [[nodiscard]] std::size_t bricks_to_write() const BURR_RT { return changed_.size(); }
   [[nodiscard]] bool restoring() const BURR_RT { return restore_.active(); }
+  // The piece that was lifted out of the bone, if one is; while the servo stands still.
+  [[nodiscard]] const HeldPiece& piece() const { return piece_; }
   // ---- a piece that is put somewhere else (restore.h); from main
   [[nodiscard]] bool lay_ready(const edit::MovedBricks& bricks) {
     return restore_.lay_ready(bricks);
@@ -116,6 +119,8 @@ class Servo {
     return cutting_.deposited() || restore_.has_moved();
   }
   [[nodiscard]] bool will_feel(bool usable) BURR_RT;
+  [[nodiscard]] bool will_carry(bool usable) BURR_RT;
+  void choose_touch() BURR_RT;
   void cut(const math::Vec3& touched) BURR_RT;
   void note_tool() BURR_RT;
   void finish_row(const Hand::Sent& sent) BURR_RT;
@@ -130,6 +135,7 @@ class Servo {
   TouchMethods touch_by_;
   Hand hand_;
   Cutting cutting_;
+  HeldPiece piece_;
   Restore restore_;
   Outbox outbox_;
   Orders orders_;

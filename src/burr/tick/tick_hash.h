@@ -2,7 +2,7 @@
 //
 // Chained: `before` is the hash of the previous tick, so the last hash covers the whole session.
 // The times (took_us, late_us) are left out, because they differ from run to run. A torque of zero,
-// sent or not, a turn of zero and a piece never moved are left out too, so that recordings from before these existed keep
+// sent or not, a turn of zero, a piece never moved and none lifted are left out too, so that recordings from before these existed keep
 // their hashes. For the same reason the undone volume
 // is left out: it follows from the removed volume and the commands. No allocation.
 #pragma once
@@ -51,6 +51,11 @@ namespace burr::tick {
   add(row.ledger.added);
   add(row.ledger.energy);
   if (row.ledger.moved != 0) add(row.ledger.moved);
+  if (row.piece.state != PieceRow::kNone) {
+    bits(static_cast<std::uint64_t>(row.piece.state));
+    add3(row.piece.p);
+    for (const double part : row.piece.turn) add(part);
+  }
   add(row.spindle_rad_s);
   add(row.cutting_nm);
   add(row.cutting_w);

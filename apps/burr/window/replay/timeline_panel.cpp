@@ -40,6 +40,8 @@ std::string letter_of(const tick::Command& command) {
     case tick::CommandKind::mirror_off:
       return "X";
     case tick::CommandKind::move_piece:
+    case tick::CommandKind::lift_piece:
+    case tick::CommandKind::leave_piece:
       return "M";
     default:
       return "F2";
@@ -340,6 +342,10 @@ std::string command_text(const record::TimelineEvent& event) {
       return say(Word::replay_limit, command.value);
     case tick::CommandKind::move_piece:
       return word(Word::piece_lies);
+    case tick::CommandKind::lift_piece:
+      return word(Word::piece_take);
+    case tick::CommandKind::leave_piece:
+      return word(Word::piece_leave);
     default:
       return word(Word::replay_setting);
   }

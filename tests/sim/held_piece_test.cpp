@@ -1,0 +1,541 @@
+// A slab that was sawn free is lifted out of a block by a hand: what the hand feels, against closed forms;
+// where the bone stops it; the account; undo and leaving; a lost hand; a replay to the bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/device/replayed_hand.h"
+#include "burr/edit/piece_store.h"
+#include "burr/math/turn.h"
+#include "burr/phantom/build.h"
+#include "burr/phantom/shapes.h"
+#include "burr/record/player.h"
+#include "burr/record/recorder.h"
+#include "burr/rt/flags.h"
+#include "burr/rt/simd.h"
+#include "burr/sim/move_pieces.h"
+#include "burr/sim/replay.h"
+#include "burr/sim/session.h"
+#include "burr/sim/session_words.h"
+#include "burr/volume/volume_of.h"
+#include "support/folder.h"
+#include "support/rt_guard.h"
+
+namespace burr::sim {
+namespace {
+
+using math::Pose;
+using math::Quat;
+using math::Vec3;
+using tick::CommandKind;
+constexpr double kMm = 1e-3, kVoxel = 0.25 * kMm;
+constexpr double kKerf = 0.5 * kMm;  // on each side of the slab
+constexpr double kStiffness = 500;   // of the hand's spring [N/m]
+
+// A block 20 x 12 x 8 mm with a slot along y from above, and in the slot a slab |x| <= 2, z >= -1 that
+// stands free by the kerf.
+const Vec3 kSlab = Vec3(2, 6, 2.5) * kMm, kSlabAt = Vec3(0, 0, 1.5) * kMm;  // half, middle
+double mother(const Vec3& p) {
+  static const phantom::Depth whole = phantom::box({10 * kMm, 6 * kMm, 4 * kMm}),
+                              slot = phantom::box({2 * kMm + kKerf, 20 * kMm, 5.25 * kMm});
+  return std::min(whole(p), -slot(p - Vec3(0, 0, 4.25 * kMm - kKerf)));
+}
+double block(const Vec3& p) {
+  static const phantom::Depth slab = phantom::box(kSlab);
+  return std::max(mother(p), slab(p - kSlabAt));
+}
+
+std::int64_t units(const volume::Bone& bone) {
+  std::int64_t sum = 0;
+  for (volume::BrickIndex brick = 0; brick < bone.brick_count(); ++brick)
+    if (bone.brick_field(brick) != nullptr) sum += volume::volume_units(bone.brick_field(brick));
+  return sum;
+}
+
+device::DeviceSpec with_torque() {
+  device::DeviceSpec spec;
+  spec.peak_torque = 0.2;
+  spec.actuated = 6;
+  return spec;
+}
+
+// Servo and hand, tick by tick, on a lattice that is turned against the block.
+struct Bench {
+  NoProgress quiet;
+  std::unique_ptr<volume::Bone> bone;
+  volume::IsoVertices surface;
+  device::ReplayedHand hand;
+  tick::Servo servo;
+  edit::PieceStore store;
+  edit::PieceStore::Found piece;
+  device::HandState now;
+  tick::TickRow row;
+  std::uint64_t at_start;
+  std::int64_t units_at_start;
+  long allocations = 0, locks = 0;
+
+  explicit Bench(const device::DeviceSpec& spec = {}, double friction = 0)
+      : bone(make()),
+        surface(*bone, {.reserve_blocks = 1 << 14}, 2, quiet),
+        hand(spec),
+        servo(*bone, surface, hand, settings(friction)),
+        at_start(bone->content_hash()),
+        units_at_start(units(*bone)) {
+    now.world_from_tool.p = Vec3(0, 0, 12) * kMm;
+    const auto found = store.find(*bone, Vec3(0, 0, 2) * kMm);
+    EXPECT_TRUE(found.ok()) << found.error().text;
+    if (found.ok()) piece = *found;
+    ticks(700);  // past the start ramp
+  }
+  static std::unique_ptr<volume::Bone> make() {
+    volume::Grid grid =
+        phantom::box_grid(Vec3(-16, -16, -11) * kMm, Vec3(16, 16, 15) * kMm, kVoxel);
+    grid.frame.q = math::normalized(Quat(1, 0.31 / 2, 0.23 / 2, 0.17 / 2));
+    grid.frame.p = grid.frame.q * grid.frame.p;
+    return phantom::bone_from_distance(grid, {}, block, 4096);
+  }
+  static tick::ServoSettings settings(double friction) {
+    tick::ServoSettings settings;
+    settings.burr.radius = 1 * kMm;
+    settings.force.stiffness = kStiffness;
+    settings.force.damping = 0;
+    settings.friction_scale = friction;
+    settings.undo_bricks = 8192;
+    return settings;
+  }
+  const tick::TickRow& tick() {
+    hand.set(now);
+    const test::RtGuard guard;
+    row = servo.tick(false);
+    servo.publish();
+    allocations += guard.allocations();
+    locks += guard.locks();
+    return row;
+  }
+  void ticks(int count) {
+    for (int n = 0; n < count; ++n) tick();
+  }
+  // The hand goes there in so many ticks, and rests as long.
+  void go(const Vec3& by_mm, const Vec3& turn = Vec3::Zero(), int count = 300) {
+    const Pose from = now.world_from_tool;
+    for (int n = 1; n <= count; ++n) {
+      const double share = static_cast<double>(n) / count;
+      now.world_from_tool.p = from.p + share * kMm * by_mm;
+      now.world_from_tool.q = math::turned(from.q, share * turn);
+      tick();
+    }
+    ticks(count);
+  }
+  bool obeyed(CommandKind kind, const edit::PieceMove& move,
+              const edit::PieceStore::Prepared& prepared) {
+    bone->commit_ahead();
+    servo.commit_ahead();
+    EXPECT_TRUE(servo.lay_ready(*prepared.bricks));
+    EXPECT_TRUE(servo.commands().push({kind, static_cast<double>(move.piece), move}));
+    double most = 0;
+    for (int n = 0; n < 3000; ++n) {
+      const Vec3 before = row.contact.force;
+      tick();
+      most = std::max(most, (row.contact.force - before).norm());
+      const tick::MoveState state = servo.move_state();
+      if (state == tick::MoveState::refused) return false;
+      if (state == tick::MoveState::done) break;
+    }
+    jump = most;
+    store.accept(prepared);
+    return servo.move_state() == tick::MoveState::done;
+  }
+  double jump = 0;  // of the force in any tick of the last command  [N]
+  bool lift() {
+    edit::PieceMove move = further(piece, Vec3::Zero(), Quat::Identity());
+    move.writes = servo.writes_done();
+    const auto prepared = store.prepare_lift(*bone, move);
+    EXPECT_TRUE(prepared.ok()) << (prepared.ok() ? "" : prepared.error().text);
+    if (!prepared.ok()) return false;
+    move.bricks = prepared->bricks->hash;
+    move.body = prepared->bricks->body.hash;
+    return obeyed(CommandKind::lift_piece, move, *prepared);
+  }
+  // The button is up, then down; from then on the hand holds the piece.
+  void grab() {
+    now.pedal = 0;
+    tick();
+    now.pedal = 1;
+    ticks(700);
+  }
+  // Where it would be put down now.
+  Result<edit::PieceStore::Prepared> down(edit::PieceMove& move) {
+    move = put_at(piece.number, piece.centre, servo.piece().pose());
+    move.writes = servo.writes_done();
+    auto prepared = store.prepare(*bone, move);
+    if (prepared.ok()) move.bricks = prepared->bricks->hash;
+    return prepared;
+  }
+  bool put_down() {
+    edit::PieceMove move;
+    const auto prepared = down(move);
+    return prepared.ok() && obeyed(CommandKind::move_piece, move, *prepared);
+  }
+  void command(CommandKind kind, int count = 600) {
+    servo.commands().push({kind, 0});
+    ticks(count);
+  }
+  [[nodiscard]] Vec3 moved() const { return servo.piece().pose().p - piece.centre; }
+  // How deep any place of the slab's faces is in the block now, by the formulas  [voxel]. inset: of the
+  // places from the edges, as a share of half a side.
+  [[nodiscard]] double deepest(double inset) const {
+    constexpr int kParts = 12;
+    const Pose body = servo.piece().pose();
+    double most = -1;
+    for (int face = 0; face < 6; ++face)
+      for (int u = 0; u <= kParts; ++u)
+        for (int v = 0; v <= kParts; ++v) {
+          Vec3 at;
+          at[face / 2] = face % 2 == 0 ? 1 : -1;
+          at[(face / 2 + 1) % 3] = (1 - inset) * (2.0 * u / kParts - 1);
+          at[(face / 2 + 2) % 3] = (1 - inset) * (2.0 * v / kParts - 1);
+          const Vec3 p = body.p + body.q * Vec3(kSlabAt + kSlab.cwiseProduct(at) - piece.centre);
+          most = std::max(most, mother(p) / kVoxel);
+        }
+    return most;
+  }
+  [[nodiscard]] std::int64_t missing() const {
+    const double unit = std::pow(kVoxel, 3) / static_cast<double>(volume::kVoxelUnits);
+    return std::llround((row.ledger.removed - row.ledger.undone + row.ledger.moved) / unit);
+  }
+};
+
+// Before and after add up to the unit, and the bone's surface is that of the block without the slab.
+TEST(HeldPiece, IsOutOfTheBoneToTheUnit) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  EXPECT_EQ(units(*bench.bone) + units(*bench.piece.bone), bench.units_at_start);
+  EXPECT_EQ(bench.missing(), units(*bench.piece.bone)) << "the account";
+  EXPECT_TRUE(bench.servo.piece().lifted());
+  EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kLies);
+  EXPECT_LT((bench.row.piece.p - bench.piece.centre).norm(), 1e-9);
+  EXPECT_NEAR(bench.piece.centre.x(), 0, 0.02 * kMm);
+  EXPECT_NEAR(bench.piece.centre.z(), 1.5 * kMm, 0.02 * kMm);
+}
+
+// Neither when the piece comes out nor when the hand takes it is anything felt.
+TEST(HeldPiece, TheHandOverIsNotFelt) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  EXPECT_LT(bench.jump, 0.01);
+  bench.now.pedal = 1;
+  double most = 0;
+  for (int n = 0; n < 800; ++n) {
+    const Vec3 before = bench.row.contact.force;
+    if (n == 5) bench.now.pedal = 0;
+    if (n == 9) bench.now.pedal = 1;
+    bench.tick();
+    EXPECT_EQ(bench.row.piece.state, n < 9 ? tick::PieceRow::kLies : tick::PieceRow::kHeld) << n;
+    most = std::max(most, (bench.row.contact.force - before).norm());
+  }
+  EXPECT_LT(most, 0.01) << "N";
+  EXPECT_LT(bench.moved().norm(), 1e-4 * kMm);
+}
+
+// Pressed on the wall of its slot the slab stands at the wall, and the spring says how hard.
+TEST(HeldPiece, IsStoppedByTheWallWithTheForceOfTheSpring) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  bench.grab();
+  for (const double side : {1.0, -1.0}) {
+    const double beyond = 0.8;  // [mm]
+    bench.go(side * Vec3(1e3 * kKerf + beyond, 0, 0));
+    EXPECT_NEAR(bench.moved().x(), side * kKerf, 0.06 * kVoxel);
+    EXPECT_NEAR(-side * bench.row.contact.force.x(), kStiffness * beyond * kMm,
+                0.02 * kStiffness * beyond * kMm);
+    EXPECT_NEAR(bench.row.contact.force.y(), 0, 0.02 * kStiffness * beyond * kMm);
+    EXPECT_NEAR(bench.row.contact.force.z(), 0, 0.02 * kStiffness * beyond * kMm);
+    EXPECT_LT(bench.row.contact.unsent_torque.norm(), 0.02 * 1e-3) << "N m: nothing tilts it";
+    EXPECT_TRUE(bench.row.contact.touching);
+    // the tool is carried along: the picture shows it where the piece is stopped
+    EXPECT_NEAR(bench.row.contact.proxy.x() - bench.now.world_from_tool.p.x(), -side * beyond * kMm,
+                0.06 * kVoxel);
+    EXPECT_LT(bench.deepest(0), 0.06) << side;
+    bench.go(-side * Vec3(1e3 * kKerf + beyond, 0, 0));
+  }
+  EXPECT_EQ(bench.allocations, 0);
+  EXPECT_EQ(bench.locks, 0);
+}
+
+// Pressed and tilted: flat until the torque could tip it over its edge, so all of it is felt; the device
+// gets it about the piece's centre.
+TEST(HeldPiece, GivesTheHandTheTorqueOfATilt) {
+  Bench bench(with_torque());
+  ASSERT_TRUE(bench.lift());
+  bench.grab();
+  const haptics::Coupling springs = coupling_of(with_torque(), bench.servo.settings());
+  ASSERT_GT(springs.turn_stiffness, 0);
+  const double beyond = 0.8 * kMm;
+  // half of what would tip it over the edge of its shorter side, 2.5 mm from the middle
+  const double tilt = 0.5 * springs.stiffness * beyond * 2.5 * kMm / springs.turn_stiffness;
+  bench.go({1e3 * kKerf + 0.8, 0, 0});
+  bench.go({0, 0, 0}, {0, tilt, 0});
+  EXPECT_NEAR(-bench.row.contact.force.x(), springs.stiffness * beyond,
+              0.03 * springs.stiffness * beyond);
+  EXPECT_NEAR(bench.row.contact.torque.y(), -springs.turn_stiffness * tilt,
+              0.05 * springs.turn_stiffness * tilt);
+  EXPECT_LT(math::rotation_vector(bench.servo.piece().pose().q).norm(), 0.1 * tilt)
+      << "the wall keeps it flat";
+}
+
+// Along the kerf, in its middle, it touches neither wall and no bottom.
+TEST(HeldPiece, SlidesAlongTheKerfWithoutTouching) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  bench.grab();
+  double most = 0;
+  for (int n = 0; n < 1000; ++n) {
+    bench.now.world_from_tool.p.y() = 8 * kMm * std::sin(2 * M_PI * n / 1000.0);
+    bench.tick();
+    most = std::max(most, bench.row.contact.force.norm());
+    EXPECT_FALSE(bench.row.contact.touching) << n;
+  }
+  EXPECT_EQ(most, 0);
+}
+
+// A hand that swings about and twists wildly: the piece is never deeper in the bone than a fraction of a
+// voxel, and no force is larger than the hand's limit.
+TEST(HeldPiece, IsNeverInTheBone) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  bench.grab();
+  const Pose middle = bench.now.world_from_tool;
+  double most = 0, deepest = -1, of_faces = -1;
+  for (int n = 0; n < 3000; ++n) {
+    const double t = 1e-3 * n;
+    bench.now.world_from_tool.p =
+        middle.p + kMm * Vec3(3 * std::sin(7 * t), 5 * std::sin(3 * t), 2 * std::sin(5 * t));
+    bench.now.world_from_tool.q = math::turned(
+        middle.q, Vec3(0.1 * std::sin(4 * t), 0.2 * std::sin(6 * t), 0.15 * std::sin(3.3 * t)));
+    bench.tick();
+    most = std::max(most, bench.row.contact.force.norm());
+    deepest = std::max(deepest, bench.deepest(0));
+    of_faces = std::max(of_faces, bench.deepest(0.2));
+  }
+  EXPECT_LE(most, 3.3 + 1e-9);
+  EXPECT_GT(most, 0.3);
+  // voxels round sharp edges off, the slab's and the slot's rim, by 0.2 of a voxel each, and corners by more
+  EXPECT_LT(deepest, 0.45) << "voxel";
+  EXPECT_LT(of_faces, 0.25) << "voxel";
+  EXPECT_GT(deepest, -0.1) << "it was pressed on the bone";
+  EXPECT_EQ(bench.allocations, 0);
+  EXPECT_EQ(bench.locks, 0);
+}
+
+// Put down where it stands against the wall: it does not overlap, and one undo takes lift and move back.
+TEST(HeldPiece, LiesWhereItWasStoppedAndOneUndoTakesItBack) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  bench.grab();
+  bench.go({1e3 * kKerf + 0.8, 2, 0});
+  const Pose stopped = bench.servo.piece().pose();
+  ASSERT_TRUE(bench.put_down());
+  bench.ticks(50);
+  EXPECT_FALSE(bench.servo.piece().lifted());
+  EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kNone);
+  EXPECT_EQ(bench.row.contact.force.norm(), 0) << "the force has faded";
+  EXPECT_EQ(bench.units_at_start - units(*bench.bone), bench.missing());
+  const auto places = bench.store.moved(*bench.bone);
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_LT((places[0].now * places[0].centre - stopped.p).norm(), 1e-9);
+  const std::uint64_t there = bench.bone->content_hash();
+  bench.command(CommandKind::undo);
+  EXPECT_EQ(bench.bone->content_hash(), bench.at_start);
+  EXPECT_EQ(bench.missing(), 0);
+  bench.command(CommandKind::redo);
+  EXPECT_EQ(bench.bone->content_hash(), there);
+  EXPECT_EQ(bench.units_at_start - units(*bench.bone), bench.missing());
+  bench.command(CommandKind::reset);
+  EXPECT_EQ(bench.bone->content_hash(), bench.at_start);
+  // and it can be lifted again
+  EXPECT_TRUE(bench.lift());
+}
+
+// Leaving, undo and reset put it back exactly, and nothing is left to redo.
+TEST(HeldPiece, GoesBackExactly) {
+  for (const CommandKind kind : {CommandKind::leave_piece, CommandKind::undo, CommandKind::reset}) {
+    Bench bench;
+    ASSERT_TRUE(bench.lift());
+    bench.grab();
+    bench.go({0.3, 4, 3}, {0.1, 0, 0.2});
+    bench.command(CommandKind::redo);
+    EXPECT_TRUE(bench.servo.piece().lifted()) << "there is nothing to redo";
+    bench.command(kind);
+    EXPECT_FALSE(bench.servo.piece().lifted());
+    EXPECT_EQ(bench.bone->content_hash(), bench.at_start);
+    EXPECT_EQ(bench.missing(), 0);
+    bench.command(CommandKind::redo);
+    EXPECT_EQ(bench.bone->content_hash(), bench.at_start);
+    ASSERT_TRUE(bench.lift()) << "again";
+    bench.command(CommandKind::leave_piece);
+    EXPECT_EQ(bench.bone->content_hash(), bench.at_start);
+  }
+}
+
+// Nothing cuts meanwhile; a lost hand lets go at once, and has to open its grip before it holds again.
+TEST(HeldPiece, ALostHandLetsGo) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  bench.grab();
+  bench.go({1e3 * kKerf + 0.8, 0, 0});
+  const std::uint64_t hash = bench.bone->content_hash();
+  const Pose at = bench.servo.piece().pose();
+  EXPECT_GT(bench.row.contact.force.norm(), 0.3);
+  bench.now.valid = false;
+  bench.ticks(10);
+  EXPECT_EQ(bench.row.contact.force.norm(), 0);
+  EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kLies);
+  bench.now.valid = true;
+  bench.ticks(50);
+  EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kLies) << "the button is still down";
+  EXPECT_EQ((bench.servo.piece().pose().p - at.p).norm(), 0);
+  bench.grab();
+  EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kHeld);
+  EXPECT_LT(bench.row.contact.force.norm(), 0.01) << "grabbed where the hand is now";
+  EXPECT_EQ(bench.bone->content_hash(), hash);
+  bench.command(CommandKind::let_go, 20);
+  EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kLies);
+}
+
+// A place for it by number: it goes there as far as the bone lets it, and nobody is pushed.
+TEST(HeldPiece, GoesWhereItIsWantedAsFarAsTheBoneLetsIt) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  edit::PieceMove move = put_at(bench.piece.number, bench.piece.centre, bench.servo.piece().pose());
+  const auto shift = [&](const Vec3& mm) {
+    for (int axis = 0; axis < 3; ++axis)
+      move.by[static_cast<std::size_t>(axis)] = (bench.piece.centre + kMm * mm)[axis];
+    bench.servo.commands().push({CommandKind::shift_piece, 0, move});
+    bench.ticks(50);
+  };
+  shift({0, 0, 3});
+  EXPECT_LT((bench.moved() - Vec3(0, 0, 3) * kMm).norm(), 1e-3 * kMm);
+  shift({0, 0, -3});
+  EXPECT_NEAR(bench.moved().z(), -kKerf, 0.06 * kVoxel) << "the bottom of the slot";
+  EXPECT_EQ(bench.row.contact.force.norm(), 0);
+  move.turn = {0, 0, 0, 2};
+  shift({0, 0, 3});
+  EXPECT_NEAR(bench.moved().z(), -kKerf, 0.06 * kVoxel) << "no rotation: refused";
+}
+
+TEST(HeldPiece, AStaleLiftIsRefused) {
+  Bench bench;
+  edit::PieceMove move = further(bench.piece, Vec3::Zero(), Quat::Identity());
+  move.writes = bench.servo.writes_done();
+  const auto prepared = bench.store.prepare_lift(*bench.bone, move);
+  ASSERT_TRUE(prepared.ok());
+  move.bricks = prepared->bricks->hash;
+  move.body = prepared->bricks->body.hash ^ 1;
+  EXPECT_FALSE(bench.obeyed(CommandKind::lift_piece, move, *prepared)) << "another body";
+  move.body ^= 1;
+  move.writes += 1;
+  EXPECT_FALSE(bench.obeyed(CommandKind::lift_piece, move, *prepared)) << "another bone";
+  EXPECT_EQ(bench.bone->content_hash(), bench.at_start);
+  move.writes -= 1;
+  EXPECT_TRUE(bench.obeyed(CommandKind::lift_piece, move, *prepared));
+}
+
+// A replay must give the same bits on every processor.
+TEST(HeldPiece, GivesTheSameBitsOnEveryInstructionSet) {
+  const rt::Simd best = rt::simd();
+  std::vector<std::uint64_t> first;
+  for (const rt::Simd set : {rt::Simd::scalar, rt::Simd::avx2, rt::Simd::avx512}) {
+    rt::force_simd(set);
+    Bench bench({}, 1);
+    ASSERT_TRUE(bench.lift());
+    bench.grab();
+    bench.go({0.9, 1, 0.5}, {0.02, 0.05, 0.1});
+    ASSERT_TRUE(bench.put_down());
+    if (set == rt::Simd::scalar) first = {bench.row.hash, bench.bone->content_hash()};
+    EXPECT_EQ(bench.row.hash, first[0]);
+    EXPECT_EQ(bench.bone->content_hash(), first[1]);
+  }
+  rt::force_simd(best);
+}
+
+// Lifted, carried, left; lifted, carried, put down, undone: recorded and replayed.
+TEST(HeldPiece, ARecordingReplaysToTheBit) {
+  const test::Folder folder;
+  const std::string path = (folder.path() / "held.mcap").string();
+  std::uint64_t at_end = 0;
+  NoProgress quiet;
+  {
+    auto owned = std::make_unique<device::ReplayedHand>(device::DeviceSpec{});
+    device::ReplayedHand& hand = *owned;
+    SessionSettings settings;
+    settings.servo = Bench::settings(1);
+    settings.surface.reserve_blocks = 1 << 14;
+    auto bone = Bench::make();
+    const std::uint64_t at_start = bone->content_hash();
+    auto made = Session::make(std::move(bone), std::move(owned), settings, quiet);
+    ASSERT_TRUE(made.ok()) << made.error().text;
+    Session& session = **made;
+    record::SessionInfo info;
+    describe(session.settings(), session.hand().spec(), info);
+    info.volume.content_hash = at_start;
+    info.volume.grid = session.bone().grid();
+    info.volume.tissues = session.bone().tissues();
+    info.volume.recipe.reserve_bricks = 4096;
+    record::Recorder recorder(info.rate_hz, 8192);
+    ASSERT_TRUE(recorder.start(path, info, &session.bone()).ok());
+    session.set_recorder(&recorder);
+    edit::PieceStore store;
+    device::HandState now;
+    now.world_from_tool.p = Vec3(0, 0, 12) * kMm;
+    const auto go = [&](const Vec3& by, double pedal) {
+      now.world_from_tool.p += kMm * by;
+      now.pedal = pedal;
+      hand.set(now);
+      session.run(0.3, quiet);
+    };
+    go({0, 0, 0}, 0);
+    ASSERT_TRUE(lift_piece(session, store, Vec3(0, 0, 2) * kMm, quiet).ok());
+    go({0, 0, 0}, 1);
+    go({1, 0.5, 0}, 1);
+    session.command({CommandKind::leave_piece, 0});
+    go({0, 0, 0}, 0);
+    EXPECT_EQ(session.bone().content_hash(), at_start);
+    const auto lifted = lift_piece(session, store, Vec3(0, 0, 2) * kMm, quiet);
+    ASSERT_TRUE(lifted.ok()) << lifted.error().text;
+    go({0, 0, 0}, 1);
+    go({1.1, 0.5, 0.3}, 1);
+    const auto put = put_down(session, store, *lifted, quiet);
+    ASSERT_TRUE(put.ok()) << put.error().text;
+    EXPECT_NEAR(put->move.by[0], kKerf, 0.1 * kVoxel);
+    go({0, 0, 0}, 0);
+    EXPECT_NE(session.bone().content_hash(), at_start);
+    session.set_recorder(nullptr);
+    ASSERT_TRUE(recorder.finish().ok());
+    at_end = session.bone().content_hash();
+  }
+  auto player = record::Player::open(path);
+  ASSERT_TRUE(player.ok()) << player.error().text;
+  auto bone = (*player)->embedded_bone();
+  ASSERT_TRUE(bone.ok());
+  const auto again = replay(**player, std::move(*bone), quiet);
+  ASSERT_TRUE(again.ok()) << again.error().text;
+  EXPECT_FALSE(again->first_different_tick.has_value()) << again->difference;
+  EXPECT_EQ(again->bone->content_hash(), at_end);
+  EXPECT_EQ(again->pieces.moved(*again->bone).size(), 1U);
+  // and without simulating
+  auto shown = (*player)->embedded_bone();
+  ASSERT_TRUE(shown.ok());
+  const auto store = moved_in(**player, **shown);
+  ASSERT_TRUE(store.ok()) << store.error().text;
+  ASSERT_TRUE((*player)->bone_at((*player)->seconds(), **shown).ok());
+  EXPECT_EQ((*shown)->content_hash(), at_end);
+  EXPECT_EQ(store->moved(**shown).size(), 1U);
+}
+
+}  // namespace
+}  // namespace burr::sim
