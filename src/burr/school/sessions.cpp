@@ -236,32 +236,29 @@ Result<std::vector<ItemRow>> items_of(Store& store, const std::string& session) 
 
 Result<std::vector<Cell>> items_of_cohort(Store& store, const std::string& cohort_id,
                                           const std::string& case_name, std::int64_t last) {
-  // newest first; of each session its newest score of each part
+  // of each learner the last sessions; of each session its newest score of each part
   const auto found = store.database().rows(
-      "SELECT session.learner_id, session.id, item.item_id, item.result FROM cohort_member "
-      "JOIN session ON session.learner_id = cohort_member.learner_id "
+      "WITH recent AS (SELECT session.learner_id, session.id, ROW_NUMBER() OVER (PARTITION BY "
+      "session.learner_id ORDER BY session.started_ms DESC, session.id) AS place "
+      "FROM cohort_member JOIN session ON session.learner_id = cohort_member.learner_id "
       "JOIN case_def ON case_def.hash = session.case_hash "
-      "JOIN score ON score.session_id = session.id JOIN item ON item.score_id = score.id "
       "WHERE cohort_member.cohort_id = $1 AND case_def.name = $2 AND session.guided = 0 "
-      "AND session.finished = 1 AND NOT EXISTS (SELECT 1 FROM score AS later "
+      "AND session.finished = 1 AND EXISTS (SELECT 1 FROM score WHERE score.session_id = "
+      "session.id)) "
+      "SELECT recent.learner_id, item.item_id, item.result FROM recent "
+      "JOIN score ON score.session_id = recent.id JOIN item ON item.score_id = score.id "
+      "WHERE recent.place <= $3 AND NOT EXISTS (SELECT 1 FROM score AS later "
       "WHERE later.session_id = score.session_id AND later.part = score.part "
       "AND (later.made_ms > score.made_ms OR (later.made_ms = score.made_ms "
-      "AND later.id > score.id))) "
-      "ORDER BY session.learner_id, session.started_ms DESC, session.id, item.item_id",
-      {cohort_id, case_name});
+      "AND later.id > score.id)))",
+      {cohort_id, case_name, last});
   if (!found) return found.error();
   std::map<std::pair<std::string, std::string>, Cell> cells;
-  std::map<std::string, std::set<std::string>> counted;  // sessions of each learner
   for (const Row& row : *found) {
-    const std::string learner = text(row[0]), session = text(row[1]), result = text(row[3]);
-    std::set<std::string>& sessions = counted[learner];
-    if (!sessions.contains(session)) {
-      if (static_cast<std::int64_t>(sessions.size()) >= last) continue;
-      sessions.insert(session);
-    }
-    Cell& cell = cells[{learner, text(row[2])}];
+    const std::string learner = text(row[0]), item = text(row[1]), result = text(row[2]);
+    Cell& cell = cells[{learner, item}];
     cell.learner = learner;
-    cell.item = text(row[2]);
+    cell.item = item;
     ++cell.sessions;
     cell.met += result == "met" ? 1 : 0;
     cell.assessable += result != "not assessable" ? 1 : 0;
