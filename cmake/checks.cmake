@@ -207,7 +207,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
 
   # the page that portable.web has built, in a browser
   add_test(NAME page COMMAND ${checks}/page.sh ${CMAKE_BINARY_DIR})
-  set_tests_properties(page PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1800 LABELS long
+  set_tests_properties(page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long
     FIXTURES_REQUIRED portable_web)
 
   # the instructor's page, in a browser

@@ -26,7 +26,7 @@ add_executable(portable_bits ${PROJECT_SOURCE_DIR}/tests/bits/portable_bits.cpp)
 target_link_libraries(portable_bits PRIVATE burr_core burr_options)
 if(EMSCRIPTEN)
   target_link_options(portable_bits PRIVATE -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sNODERAWFS=1 -sEXIT_RUNTIME=1)
-  add_subdirectory(web)
+  include(${PROJECT_SOURCE_DIR}/web/page.cmake)
 endif()
 
 # The unit tests of the core's rooms that need nothing else. Not for a browser: gtest wants threads and files.

@@ -20,6 +20,7 @@
 #include "burr/base/progress.h"
 #include "burr/math/rotation.h"
 #include "burr/phantom/build.h"
+#include "burr/record/player.h"
 #include "burr/render/soft_scene.h"
 #include "burr/surface/mesher.h"
 #include "burr/tick/servo.h"
@@ -53,6 +54,7 @@ struct Core {
   std::unique_ptr<tick::Servo> servo;
   tick::TickRow row;
   double voxel_mm = 0;
+  std::unique_ptr<record::Player> player;       // of a recording that is watched
   std::unique_ptr<web::PageRecorder> recorder;  // nullptr: it has failed, or is finished
   int undrained = 0;                            // ticks
   std::string why;                              // it has failed
@@ -103,6 +105,14 @@ void want_all(Core& c) {
   for (const auto& [far, n] : order) c.want(n);
 }
 
+void take_bone(Core& c, std::unique_ptr<volume::Bone> bone) {
+  c.bone = std::move(bone);
+  c.changed = &c.bone->add_watcher();
+  c.mesher = std::make_unique<surface::Mesher>(*c.bone);
+  c.queued.resize(static_cast<std::size_t>(c.mesher->patch_count()));
+  want_all(c);
+}
+
 void drain(Core& c) {
   c.undrained = 0;
   const Status drained = c.recorder->drain();
@@ -126,11 +136,7 @@ EMSCRIPTEN_KEEPALIVE int core_make(double voxel_mm) {
   auto bone = phantom::bone_from_formula(phantom::box_grid(made.lo, made.hi, voxel), made.tissues,
                                          made.formula, kReserveBricks, 1, quiet);
   if (!bone) return 0;
-  core->bone = std::move(*bone);
-  core->changed = &core->bone->add_watcher();
-  core->mesher = std::make_unique<surface::Mesher>(*core->bone);
-  core->queued.resize(static_cast<std::size_t>(core->mesher->patch_count()));
-  want_all(*core);
+  take_bone(*core, std::move(*bone));
   return 1;
 }
 
@@ -237,6 +243,57 @@ EMSCRIPTEN_KEEPALIVE int core_row_size() { return sizeof(tick::TickRow); }
 EMSCRIPTEN_KEEPALIVE void core_command(int kind, double value) {
   static_cast<void>(
       core->servo->commands().push({static_cast<tick::CommandKind>(kind), value, {}}));
+}
+
+// ---- a recording is watched: core_open() instead of core_make() and core_begin(), then core_seek()
+
+// Opens the recording PageRecorder::kFile, which holds its bone. 0: core_why() says why not.
+EMSCRIPTEN_KEEPALIVE int core_open() {
+  core = std::make_unique<Core>();
+  auto player = record::Player::open(web::PageRecorder::kFile);
+  if (!player) {
+    core->why = player.error().text;
+    return 0;
+  }
+  auto bone = (*player)->embedded_bone();
+  if (!bone) {
+    core->why = bone.error().text;
+    return 0;
+  }
+  core->player = std::move(*player);
+  core->voxel_mm = 1e3 * (*bone)->grid().voxel;
+  take_bone(*core, std::move(*bone));
+  return 1;
+}
+EMSCRIPTEN_KEEPALIVE double core_seconds() { return core->player->seconds(); }
+EMSCRIPTEN_KEEPALIVE double core_rate() { return core->player->info().rate_hz; }
+EMSCRIPTEN_KEEPALIVE double core_voxel_mm() { return core->voxel_mm; }
+// Bone and row as they were then. 0: core_why() says why not.
+EMSCRIPTEN_KEEPALIVE int core_seek(double seconds) {
+  Core& c = *core;
+  const Status there = c.player->bone_at(seconds, *c.bone);
+  const auto row = c.player->tick_at(seconds);
+  if (!there || !row) {
+    c.why = !there ? there.error().text : row.error().text;
+    return 0;
+  }
+  c.row = *row;
+  return 1;
+}
+// Of a tissue of the bone: its kind (volume::TissueKind), colour, and how much it bleeds. nullptr: there is
+// no tissue of this number. Its name: core_tissue_name().
+EMSCRIPTEN_KEEPALIVE const double* core_tissue(int number) {
+  static double told[5];
+  const auto& tissues = core->bone->tissues().tissues;
+  if (static_cast<std::size_t>(number) >= tissues.size()) return nullptr;
+  const volume::Tissue& tissue = tissues[static_cast<std::size_t>(number)];
+  told[0] = static_cast<double>(tissue.kind);
+  std::copy(tissue.colour.begin(), tissue.colour.end(), told + 1);
+  told[4] = tissue.bleeds;
+  return told;
+}
+EMSCRIPTEN_KEEPALIVE const char* core_tissue_name(int number) {
+  return core->bone->tissues().tissues[static_cast<std::size_t>(number)].name.c_str();
 }
 
 // "tick hash, hash of the bone", in hexadecimal

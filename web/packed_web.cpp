@@ -1,10 +1,11 @@
 // Packs without zstd's library, in zstd's format: runs of one byte become run-length blocks, all else
-// stays as it is (RFC 8878, 3.1.1). A recording is mostly such runs; any zstd can unpack it.
+// stays as it is (RFC 8878, 3.1.1). A recording is mostly such runs; any zstd can unpack it. unzstd.h
+// unpacks all of the format.
 // In place of record/mcap/packed.cpp.
 #include <algorithm>
-#include <cstring>
 
 #include "burr/record/mcap/packed.h"
+#include "unzstd.h"
 
 namespace burr::record {
 namespace {
@@ -35,12 +36,6 @@ std::size_t run_at(ByteSpan bytes, std::size_t at) {
   return end - at;
 }
 
-std::uint32_t word_at(ByteSpan bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  for (std::size_t n = 0; n < 4; ++n) word |= std::uint32_t{bytes[at + n]} << (8 * n);
-  return word;
-}
-
 }  // namespace
 
 struct Packer::Context {};
@@ -69,29 +64,9 @@ void Packer::pack(ByteSpan bytes, std::vector<std::uint8_t>& out) {
   put_block(out, raw, {}, true);
 }
 
-// Only what pack() wrote.
 bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out) {
-  out.clear();
-  if (packed.size() < 9 || word_at(packed, 0) != kMagic || packed[4] != kWhole ||
-      word_at(packed, 5) != size)
-    return false;
-  for (std::size_t at = 9; at + 3 <= packed.size();) {
-    const std::uint32_t head =
-        packed[at] | std::uint32_t{packed[at + 1]} << 8 | std::uint32_t{packed[at + 2]} << 16;
-    const std::uint32_t kind = head >> 1 & 3, length = head >> 3;
-    at += 3;
-    if (length > size - out.size() || kind > run) return false;
-    const std::size_t took = kind == run ? 1 : length;
-    if (took > packed.size() - at) return false;
-    if (kind == run)
-      out.insert(out.end(), length, packed[at]);
-    else
-      out.insert(out.end(), packed.begin() + static_cast<std::ptrdiff_t>(at),
-                 packed.begin() + static_cast<std::ptrdiff_t>(at + took));
-    at += took;
-    if ((head & 1) != 0) return at == packed.size() && out.size() == size;
-  }
-  return false;
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 30;
+  return size < kMost && web::unzstd(packed, static_cast<std::size_t>(size), out);
 }
 
 }  // namespace burr::record

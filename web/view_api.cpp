@@ -13,6 +13,8 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "burr/render/governor.h"
 #include "burr/render/held_tool.h"
@@ -38,7 +40,8 @@ struct View {
   app::MouseHand::Aim hand;
   render::HeldTool held;
   tick::TickRow row;
-  std::string why;  // of the last call that failed
+  std::vector<volume::Tissue> tissues;  // of the next bone
+  std::string why;                      // of the last call that failed
 };
 
 View& view() {
@@ -55,6 +58,21 @@ render::Camera first_camera() {
 surface::Patch patch_of(const surface::Vertex* vertices, int vertex_count,
                         const std::uint32_t* triangles, int index_count) {
   return {{vertices, vertices + vertex_count}, {triangles, triangles + index_count}};
+}
+
+// What was shown before goes; the camera stays.
+void show_bone(const volume::TissueTable& tissues, double voxel_mm) {
+  View& v = view();
+  const render::Camera camera = v.aim ? v.scene.camera : first_camera();
+  const double voxel = 1e-3 * voxel_mm;
+  v.scene = {};
+  v.scene.camera = camera;
+  v.scene.scale_bar = true;
+  v.scene.tissue_colours = render::colours_of(tissues);
+  v.scene.materials = render::materials_of(tissues);
+  v.wound.emplace(voxel, render::bleeding_of(tissues));
+  v.aim.emplace(voxel);
+  v.row = {};
 }
 
 }  // namespace
@@ -82,18 +100,29 @@ EMSCRIPTEN_KEEPALIVE const char* view_gpu() {
 
 // A bone with voxels of this size; what was shown before goes.
 EMSCRIPTEN_KEEPALIVE void view_bone(double voxel_mm) {
+  show_bone(web::phantom_of_page(1e-3 * voxel_mm).tissues, voxel_mm);
+}
+// The same for another bone: view_tissue() for each of its tissues (core_tissue()), then view_other_bone().
+EMSCRIPTEN_KEEPALIVE void view_tissue(const char* name, int kind, double red, double green,
+                                      double blue, double bleeds) {
+  volume::Tissue tissue;
+  tissue.name = name;
+  tissue.kind = static_cast<volume::TissueKind>(kind);
+  tissue.colour = {static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue)};
+  tissue.bleeds = bleeds;
+  view().tissues.push_back(tissue);
+}
+EMSCRIPTEN_KEEPALIVE void view_other_bone(double voxel_mm) {
+  volume::TissueTable table;
+  table.tissues = std::exchange(view().tissues, {});
+  show_bone(table, voxel_mm);
+}
+// The whole bone, seen from the right.
+EMSCRIPTEN_KEEPALIVE void view_whole() {
   View& v = view();
-  const render::Camera camera = v.aim ? v.scene.camera : first_camera();
-  const double voxel = 1e-3 * voxel_mm;
-  const volume::TissueTable tissues = web::phantom_of_page(voxel).tissues;
-  v.scene = {};
-  v.scene.camera = camera;
-  v.scene.scale_bar = true;
-  v.scene.tissue_colours = render::colours_of(tissues);
-  v.scene.materials = render::materials_of(tissues);
-  v.wound.emplace(voxel, render::bleeding_of(tissues));
-  v.aim.emplace(voxel);
-  v.row = {};
+  v.scene.camera = render::whole_view(
+      v.scene, -1.2, 0.2,
+      static_cast<double>(v.renderer->width()) / std::max(1, v.renderer->height()));
 }
 
 EMSCRIPTEN_KEEPALIVE void view_patch(int number, const surface::Vertex* vertices, int vertex_count,

@@ -133,6 +133,7 @@ class Page:
         self.browser = browser
         self.troubles = []  # what the console says as a warning or an error, and what was thrown
         self.requests = []  # (seconds since the start, address)
+        self.sent = []  # their methods: GET, POST
         self.target = browser.send("Target.createTarget", {"url": "about:blank"})["targetId"]
         self.session = browser.send("Target.attachToTarget", {"targetId": self.target, "flatten": True})["sessionId"]
         self.sessions = {self.session}
@@ -170,6 +171,7 @@ class Page:
             self.troubles.append(params["entry"]["text"] + " " + params["entry"].get("url", ""))
         elif method == "Network.requestWillBeSent":
             self.requests.append((time.monotonic() - self.begun, params["request"]["url"]))
+            self.sent.append(params["request"]["method"])
 
     def send(self, method, params=None):
         return self.browser.send(method, params, self.session)
@@ -183,6 +185,12 @@ class Page:
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"].get("exception", {}).get("description", "?"))
         return answer["result"].get("value")
+
+    def choose(self, selector, file):
+        """Gives a file to an <input type=file>."""
+        root = self.send("DOM.getDocument")["root"]["nodeId"]
+        node = self.send("DOM.querySelector", {"nodeId": root, "selector": selector})["nodeId"]
+        self.send("DOM.setFileInputFiles", {"nodeId": node, "files": [str(file)]})
 
     def wait(self, condition, seconds):
         end = time.monotonic() + seconds

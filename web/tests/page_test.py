@@ -6,6 +6,7 @@
 The server sends no special headers (no COOP, no COEP), as any static host does. How long things take is printed,
 never judged: all waits end after minutes.
 """
+import json
 import math
 import pathlib
 import re
@@ -125,12 +126,13 @@ def record(page, downloads):
     while not (file.exists() and file.stat().st_size == (page.run("burr.saved") or -1)):
         if time.monotonic() > end:
             check(False, "the recording is saved as burr.mcap")
-            return
+            return None
         time.sleep(0.2)
     replayed = subprocess.run([BURR, "replay", file, "--check"], capture_output=True, text=True)
     said = (replayed.stderr + replayed.stdout).strip().splitlines()[-1]
     same = re.search(r"the same to the bit: (\d+) ticks", said)
     check(replayed.returncode == 0 and same is not None and int(same[1]) >= LEAST_TICKS, f"burr replay --check: {said}")
+    return file
 
 
 def requests(page, site, loaded):
@@ -139,6 +141,45 @@ def requests(page, site, loaded):
     check(not elsewhere, f"no request to anywhere else {elsewhere}")
     later = [url for _, url in page.requests[loaded:] if not url.startswith("blob:")]
     check(not later, f"no request after the page was loaded {later}")
+
+
+def replay(browser, site, recorded):
+    """The page "replay" shows recordings of the program and of the page; the bone at the end is the program's, to the bit."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "native.mcap"
+        told = subprocess.run([BURR, "--quiet", "mill", "phantom:block", "--voxel-mm", "0.5", "--motion", "pocket", "--burr-mm",
+                               "4", "--seconds", "3", "--record", file, "--embed", "--json"],
+                              capture_output=True, text=True, check=True)
+        milled = json.loads(told.stdout.strip().splitlines()[-1])
+        page = browser.open(site.url + "replay/")
+        page.wait("window.burr?.open", WAIT)
+        page.choose("#file", file)
+        page.wait("burr.ready && burr.shown === 0", WAIT)
+        start = page.run("burr.bone")
+        page.run("(() => { const time = document.getElementById('time'); time.value = burr.seconds;"
+                 "time.dispatchEvent(new Event('input')); })()")
+        page.wait("burr.shown === burr.seconds", WAIT)
+        check("0x" + page.run("burr.bone") == milled["bone_hash"] != "0x" + start,
+              "the bone at the end is that of the program to the bit")
+        removed = page.run("burr.figures.removed")
+        check(abs(removed - milled["removed_mm3"]) < 1e-9, f"removed {removed:.3f} mm3, as the program says")
+        page.wait("burr.refined()", WAIT)
+        page.picture(PICTURES and PICTURES / "replay.png")
+        if recorded:
+            page.choose("#file", recorded)
+            page.wait("burr.ready && burr.shown === 0", WAIT)
+            check(page.run(f"burr.seconds >= {LEAST_TICKS / 1000}"), "the page's own recording opens too")
+        bad_file = pathlib.Path(folder) / "bad.mcap"
+        bad_file.write_bytes(file.read_bytes()[:1000])
+        page.choose("#file", bad_file)
+        page.wait("burr.refused", WAIT)
+        check("bad.mcap" in page.run("burr.refused"), f"a torn file is refused: {page.run('burr.refused')}")
+        later = [url for _, url in page.requests if not url.startswith((site.url, "data:"))]
+        check(not later, f"nothing is sent anywhere {later}")
+        sent = [one for one in page.sent if one != "GET"]
+        check(not sent, f"nothing is uploaded {sent}")
+        check(not page.troubles, f"no errors on the console {page.troubles}")
+        page.close()
 
 
 def languages(browser, site):
@@ -159,11 +200,12 @@ def main():
         page = browser.open(site.url + "mill/")
         loaded = mill(page)
         undo_and_reset(page)
-        record(page, downloads)
+        recorded = record(page, downloads)
         requests(page, site, loaded)
         check(not page.troubles, f"no errors on the console {page.troubles}")
         print("ticks:", page.run("JSON.stringify(burr.state)"), "pictures:", page.run("burr.pictures"))
         page.close()
+        replay(browser, site, recorded)
         languages(browser, site)
     if bad:
         sys.exit("\n".join(bad))

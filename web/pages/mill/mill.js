@@ -1,6 +1,7 @@
 // The page "mill": a bone to cut, with mouse or finger. The program runs twice: here it draws the
 // picture and says where the hand is; in worker.js it ticks.
 import {compile, start} from '../common/burr.js';
+import {show} from '../common/skin.js';
 import * as words from '../common/words.js';
 
 const {word, number} = words;
@@ -27,6 +28,8 @@ const burr = window.burr = {
   voxel: 0.5,
   // where the burr is in the picture, and its radius there [pixel of the canvas]
   place: () => [...view.numbers(view.view_burr(), 3)],
+  measure: () => worker.postMessage({kind: 'measure'}),  // times of ticks begin anew
+  hash: () => worker.postMessage({kind: 'hashes'}),      // gives burr.hashes
   refined: () => view.view_refined() === 1 && waiting.length === 0,
 };
 const mark = (name) => { burr.times[name] ??= Math.round(performance.now()); };
@@ -112,15 +115,7 @@ function hear(data) {
 }
 
 function take_waiting() {
-  for (const one of waiting) {
-    if (one.row) {
-      view.with_bytes([one.row], (row) => view.view_row(row));
-    } else {
-      const call = one.soft ? view.view_soft : view.view_patch;
-      view.with_bytes([one.vertices, one.triangles],
-                      (vertices, triangles) => call(one.number, vertices, one.count, triangles, one.indices));
-    }
-  }
+  for (const one of waiting) show(view, one);
   waiting.length = 0;
 }
 

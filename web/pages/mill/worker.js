@@ -3,23 +3,22 @@
 // All ticks that are due are computed together, every 4 ms or so: a mouse has no motors, so nobody
 // feels that. Ticks that a busy machine has missed are left out and counted, never made up for.
 //
-//     page -> worker   start {compiled, voxel}, next {aim}, command {what, value}, pause {on}, hashes, save
+//     page -> worker   start {compiled, voxel}, next {aim}, command {what, value}, pause {on}, hashes, save, measure
 //     worker -> page   shaped, skin {patches}, skin_done, soft {parts}, ready, state {row, patches, ...}, hashes,
 //                      saved {file} or {why}, broken {text}
 //
 // The page answers every state with `next`; until then none is sent, so none waits in a queue.
 import {start} from '../common/burr.js';
+import {Skin} from '../common/skin.js';
 
 const kMostTicks = 50;    // in one beat
 const kSkinMs = 4;        // for the surface, in each beat
-const kSkinFirstMs = 40;  // before the ticks have begun
-const kVertex = 28, kSkinVertex = 20;  // bytes; surface::Vertex, render::SkinVertex
 
-let burr = null;
+let burr = null, skin = null;
 let paused = false, wanted = true, running = false;
 let begun = 0, done = 0, left_out = 0;
-let fresh = [];  // patches that the page does not have yet
 const took = new Map();  // microseconds of a tick -> how many
+let timed = 0;           // ticks in it
 
 self.onmessage = ({data}) => {
   try {
@@ -55,6 +54,9 @@ function take(data) {
   } else if (data.kind === 'hashes') {
     const [tick, bone] = burr.text(burr.core_hashes()).split(' ');
     self.postMessage({kind: 'hashes', tick, bone, ticks: done});
+  } else if (data.kind === 'measure') {
+    took.clear();
+    timed = 0;
   } else if (data.kind === 'save') {
     save();
   }
@@ -72,30 +74,12 @@ function save() {
   self.postMessage({kind: 'saved', file}, [file.buffer]);
 }
 
-const pause = () => new Promise((go) => {
-  const channel = new MessageChannel();
-  channel.port1.onmessage = go;
-  channel.port2.postMessage(0);
-});
-
 async function open({compiled, voxel}) {
   burr = await start(compiled);
   if (!burr.core_make(voxel)) throw new Error('not enough memory');
   self.postMessage({kind: 'shaped', voxel});
-  // the surface, what is near the work first
-  for (;;) {
-    const until = performance.now() + kSkinFirstMs;
-    let more = true;
-    while (more && performance.now() < until) more = mesh_one();
-    send_patches('skin');
-    if (!more) break;
-    await pause();
-  }
-  self.postMessage({kind: 'skin_done'});
-  const parts = [];
-  for (let given = burr.core_soft(); given !== 0; given = burr.core_soft())
-    parts.push(copy(given, kSkinVertex));
-  self.postMessage({kind: 'soft', parts}, parts.flatMap((one) => [one.vertices.buffer, one.triangles.buffer]));
+  skin = new Skin(burr);
+  await skin.send_whole();
   burr.core_begin();
   running = true;
   begin_clock();
@@ -105,32 +89,6 @@ async function open({compiled, voxel}) {
 
 function begin_clock() {
   begun = performance.now() - done - left_out;
-}
-
-// A Given of core_api.cpp.
-function copy(pointer, size) {
-  const [number, vertices, count, triangles, indices] = new Int32Array(burr.module.HEAPU8.buffer, pointer, 5);
-  return {
-    number,
-    count,
-    indices,
-    vertices: burr.bytes(vertices, count * size).slice(),
-    triangles: burr.bytes(triangles, 4 * indices).slice(),
-  };
-}
-
-function mesh_one() {
-  const given = burr.core_patch();
-  if (given === 0) return false;
-  fresh.push(copy(given, kVertex));
-  return true;
-}
-
-function send_patches(kind, more = {}) {
-  const patches = fresh;
-  fresh = [];
-  self.postMessage({kind, patches, ...more},
-                   patches.flatMap((one) => [one.vertices.buffer, one.triangles.buffer]));
 }
 
 function beat() {
@@ -147,13 +105,14 @@ function beat() {
       done += due;
       const each = Math.round(1e3 * (performance.now() - now) / due);
       took.set(each, (took.get(each) ?? 0) + due);
+      timed += due;
     }
     const until = performance.now() + kSkinMs;
-    while (performance.now() < until && mesh_one()) { /* the next */ }
+    while (performance.now() < until && skin.make_one()) { /* the next */ }
     if (wanted) {
       wanted = false;
       const row = burr.bytes(burr.core_row(), burr.core_row_size()).slice();
-      send_patches('state', {row, ticks: done, left_out, due: burr.core_patches_due(), ...shares()});
+      skin.send({kind: 'state', row, ticks: done, left_out, ...shares()});
     }
     setTimeout(beat, 2);
   } catch (trouble) {
@@ -161,11 +120,11 @@ function beat() {
   }
 }
 
-// The middle tick and the slowest of a hundred [us], since the start; a beat's ticks are timed together.
+// The middle tick and the slowest of a hundred [us], since the start or `measure`; a beat's ticks are timed together.
 function shares() {
   const all = [...took].sort((a, b) => a[0] - b[0]);
   const share = (part) => {
-    let left = part * done;
+    let left = part * timed;
     for (const [each, count] of all)
       if ((left -= count) <= 0) return each;
     return all.at(-1)?.[0] ?? 0;
