@@ -22,9 +22,12 @@ Bytes packed(const Bytes& bytes, int level, bool with_sum = false) {
   return out;
 }
 
-// Noise, few letters, repeats from near and far, runs: what literals and sequences can look like.
+// Noise, few letters, repeats from near and far, runs, repeats from three places in turn: what literals and
+// sequences can look like.
 Bytes made(int kind, std::size_t size, std::mt19937& random) {
   Bytes out(size);
+  constexpr std::size_t lags[] = {37, 101, 353};
+  std::size_t lag = lags[0];
   const auto any = [&](std::uint32_t below) {
     return static_cast<std::uint32_t>(random() % below);
   };
@@ -43,6 +46,10 @@ Bytes made(int kind, std::size_t size, std::mt19937& random) {
       case 3:
         value = any(20) == 0 ? static_cast<std::uint32_t>(1 + n / 97 % 7) : 0;
         break;
+      case 4:
+        if (any(12) == 0) lag = lags[any(3)];
+        value = n > 400 && any(30) != 0 ? out[n - lag] : any(256);
+        break;
       default:
         value = n > 1000 ? out[n - 1000] ^ (any(40) == 0 ? 1U : 0U) : any(60);
         break;
@@ -56,7 +63,7 @@ TEST(Unzstd, UnpacksWhatZstdPacks) {
   std::mt19937 random(7);
   for (int n = 0; n < 400; ++n) {
     const Bytes bytes =
-        made(n % 5, n < 100 ? static_cast<std::size_t>(n) : random() % 300'000, random);
+        made(n % 6, n < 100 ? static_cast<std::size_t>(n) : random() % 300'000, random);
     const Bytes small = packed(bytes, 1 + n % 12, n % 3 == 0);
     Bytes back;
     ASSERT_TRUE(unzstd(small, bytes.size(), back)) << n;
@@ -76,7 +83,7 @@ TEST(Unzstd, RefusesAnotherSize) {
 TEST(Unzstd, DamagedBytesGiveNoMoreThanTheSize) {
   std::mt19937 random(3);
   for (int n = 0; n < 2000; ++n) {
-    const Bytes bytes = made(n % 5, 1 + random() % 4000, random);
+    const Bytes bytes = made(n % 6, 1 + random() % 4000, random);
     Bytes small = packed(bytes, 1 + n % 12);
     if (n % 4 == 0)
       small.resize(random() % small.size());
