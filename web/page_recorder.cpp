@@ -36,9 +36,8 @@ Result<std::unique_ptr<PageRecorder>> PageRecorder::begin(const volume::Bone& bo
   std::unique_ptr<PageRecorder> recorder(new PageRecorder());
   auto writer = std::make_unique<record::McapWriter>();
   if (Status opened = writer->open(kFile, kFile); !opened.ok()) return opened.error();
-  auto pen =
-      record::Pen::begin(std::move(writer), info, &bone,
-                         {recorder->ticks_, recorder->commands_, recorder->bricks_, nullptr});
+  auto pen = record::Pen::begin(
+      writer, info, &bone, {recorder->ticks_, recorder->commands_, recorder->bricks_, nullptr});
   if (!pen) return pen.error();
   recorder->pen_ = std::move(*pen);
   return recorder;

@@ -113,12 +113,12 @@ TEST(Study, TheLastMarksOfThoseWithEnough) {
   EXPECT_FALSE(balance(marks, 3, true).ok());
 }
 
-std::vector<Pair> pairs(int both, int first, int second, int neither) {
-  std::vector<Pair> out;
-  out.insert(out.end(), static_cast<std::size_t>(both), {true, true});
-  out.insert(out.end(), static_cast<std::size_t>(first), {true, false});
-  out.insert(out.end(), static_cast<std::size_t>(second), {false, true});
-  out.insert(out.end(), static_cast<std::size_t>(neither), {false, false});
+std::vector<std::vector<Pair>> pairs(int both, int first, int second, int neither) {
+  std::vector<std::vector<Pair>> out;
+  out.insert(out.end(), static_cast<std::size_t>(both), {{true, true}});
+  out.insert(out.end(), static_cast<std::size_t>(first), {{true, false}});
+  out.insert(out.end(), static_cast<std::size_t>(second), {{false, true}});
+  out.insert(out.end(), static_cast<std::size_t>(neither), {{false, false}});
   return out;
 }
 
@@ -140,6 +140,18 @@ TEST(Study, KappaAndAc1OfPublishedTables) {
   // the large-sample error of kappa (Fleiss, Cohen, Everitt 1969) is 0.072: the interval is about 0.28 wide
   EXPECT_NEAR(even.kappa_95.high - even.kappa_95.low, 0.28, 0.04);
   EXPECT_FALSE(agreement(pairs(12, 0, 0, 0)).kappa.has_value());
+}
+
+TEST(Study, ItemsOfOneProductAreNotIndependent) {
+  // the same marks for two items of each product tell no more than those for one
+  std::vector<std::vector<Pair>> once = pairs(40, 9, 6, 45), twice = once;
+  for (std::vector<Pair>& product : twice) product.push_back(product.front());
+  const Agreement of_one = agreement(once), of_two = agreement(twice);
+  EXPECT_EQ(of_two.products, 100);
+  EXPECT_EQ(of_two.marks, 200);
+  EXPECT_DOUBLE_EQ(*of_two.kappa, *of_one.kappa);
+  EXPECT_DOUBLE_EQ(of_two.kappa_95.low, of_one.kappa_95.low);
+  EXPECT_DOUBLE_EQ(of_two.kappa_95.high, of_one.kappa_95.high);
 }
 
 TEST(Study, IccOfShroutAndFleiss) {
@@ -195,6 +207,8 @@ TEST(Study, AnItemOnWhichTheMachineDiffersIsForAPerson) {
   EXPECT_NEAR(out->apart[1].figures.mean, 1.0 / 20, 1e-12);  // the machine: 2 items fewer, 1 more
   ASSERT_EQ(out->pairs.size(), 9U);  // 3 pairs of raters for 2 items and for all
   EXPECT_NEAR(out->pairs[4].figures.agreement, 0.85, 1e-12);
+  EXPECT_EQ(out->pairs.back().figures.products, 20);  // all items together: still 20 products
+  EXPECT_EQ(out->pairs.back().figures.marks, 40);
   EXPECT_FALSE(study_raters(ratings_of(9)).ok());
   std::vector<Rating> twice = ratings_of(20);
   twice.push_back(twice.front());
@@ -320,6 +334,8 @@ TEST(Study, TablesSayWhatIsWrongAndWhere) {
   ASSERT_EQ(good->rows.size(), 1U);
   EXPECT_EQ(good->rows[0][0], "Ann, the \"first\"");
   EXPECT_EQ(good->rows[0][2], "");
+  EXPECT_EQ(
+      parse_table("learner,mark\n\"#1\",2\n#1,2\n", "m.csv", {"learner", "mark"})->rows.size(), 1U);
   EXPECT_DOUBLE_EQ(*good->number(0, 1), 3.5);
   const std::pair<const char*, const char*> cases[] = {
       {"", "m.csv: is empty"},

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,6 +33,7 @@ class Running {
     auto opened = HttpServer::open(door, [this](const Request& request) {
       if (auto refusal = refused(request, guard_)) return *refusal;
       ++answered;
+      if (request.path == "/api/throws") throw std::runtime_error("odd content");
       Response out;
       out.body =
           request.path == "/api/echo" ? request.body : request.path + " " + request.asked("q");
@@ -133,6 +135,14 @@ TEST(Serve, AnswersItsOwnPage) {
                                "Content-Type: application/json\r\nContent-Length: 2\r\n") +
                               "{}");
   EXPECT_TRUE(post.ends_with("{}")) << post;
+}
+
+TEST(Serve, AnAnswerThatThrowsDoesNotEndIt) {
+  Running server;
+  const std::string got = answer(server.port, head(server.port, "GET /api/throws"));
+  EXPECT_EQ(status(got), 500) << got;
+  EXPECT_EQ(got.find("odd content"), std::string::npos);  // for the terminal alone
+  EXPECT_EQ(status(answer(server.port, head(server.port, "GET /"))), 200);
 }
 
 TEST(Serve, TwoRequestsOnOneConnection) {
@@ -304,8 +314,11 @@ TEST(Serve, TokensAreLongAndKeptForTheirOwner) {
             "token: other users may read the token; run: chmod 600 token");
   chmod(file.c_str(), 0600);
   EXPECT_EQ(*token_from(file), kToken);
-  std::ofstream(file) << "short";
-  EXPECT_FALSE(token_from(file).ok());
+  for (const char* bad :
+       {"short", "0123456789abcdef0123456789abcde&", "0123456789abcdef0123456789abcde%"}) {
+    std::ofstream(file) << bad;
+    EXPECT_FALSE(token_from(file).ok()) << bad;
+  }
 }
 
 TEST(Serve, SaysWhyItCannotOpen) {

@@ -139,9 +139,15 @@ function chart(points, curve, title) {
     parts.push(el("polygon", { class: "band", points: [...up, ...down].map(p => p.map(v => v.toFixed(1)).join(",")).join(" ") }));
     parts.push(el("path", { class: "line", d: curve.line.map((value, n) => (n ? "L" : "M") + x(n + 1).toFixed(1) + " " + y(value).toFixed(1)).join(" ") }));
   }
-  for (const one of points)
-    parts.push(el("circle", { class: one.guided ? "guided" : "free", cx: x(one.attempt), cy: y(one.value), r: 4.5 },
-      el("title", {}, one.attempt + ": " + Math.round(one.value) + " %, " + say(one.guided ? "guided" : "free_of_help"))));
+  for (const one of points) {
+    const what = el("title", {}, one.attempt + ": " + Math.round(one.value) + " %, " + say(one.guided ? "guided" : "free_of_help") + (one.finished ? "" : ", " + say("unfinished")));
+    if (!one.finished) {
+      const [u, v] = [x(one.attempt), y(one.value)];
+      parts.push(el("path", { class: "broken", d: `M${u - 4} ${v - 4}L${u + 4} ${v + 4}M${u - 4} ${v + 4}L${u + 4} ${v - 4}` }, what));
+      continue;
+    }
+    parts.push(el("circle", { class: one.guided ? "guided" : "free", cx: x(one.attempt), cy: y(one.value), r: 4.5 }, what));
+  }
   return el("svg", { class: "curve", viewBox: `0 0 ${wide} ${high}`, role: "img", "aria-label": title }, parts);
 }
 
@@ -155,7 +161,7 @@ async function learner(id) {
   for (const one of all.cases) {
     out.push(el("h2", {}, one.name));
     for (const which of ["product", "process"]) {
-      const points = one.points.filter(p => p[which] != null).map(p => ({ attempt: p.attempt, guided: p.guided, value: 100 * p[which] }));
+      const points = one.points.filter(p => p[which] != null).map(p => ({ attempt: p.attempt, guided: p.guided, finished: p.finished, value: 100 * p[which] }));
       if (points.length === 0) continue;
       const curve = one.curves[which], title = say(which) + ": " + say("curve");
       out.push(el("h3", {}, title), chart(points, curve, title));

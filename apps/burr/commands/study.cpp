@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -347,8 +348,7 @@ void print(const std::string& learner, const study::Curve& curve) {
   fmt::print("{}: {} attempts without guidance, {} guided; ", base::printable(learner),
              curve.unguided, curve.guided);
   if (curve.kind == study::CurveKind::points) {
-    fmt::print("no fit ({} of {} needed, not all the same)\n", curve.unguided,
-               study::kFewestAttempts);
+    fmt::print("no fit ({} of {} needed, not all the same)\n", curve.unguided, curve.needed);
     return;
   }
   fmt::print("{}; marks scatter by {:.3g}; ",
@@ -376,6 +376,8 @@ Status curve(const Options& options) {
     if (!row[2].empty()) {
       const auto number = table->number(n, 2, 1, 1e6);
       if (!number) return number.error();
+      if (*number != std::floor(*number))
+        return error(fmt::format("{}: {} is not a whole number", table->place(n, 2), *number));
       attempt.number = static_cast<int>(*number);
     }
     if (!row[4].empty()) {

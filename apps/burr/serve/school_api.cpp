@@ -190,6 +190,7 @@ Response learner(Store& store, const Request& request) {
     if (!one["parts"].empty())
       cases[session.case_name].push_back({{"attempt", session.attempt},
                                           {"guided", session.guided},
+                                          {"finished", session.finished},
                                           {"product", share_met(one["parts"], "product")},
                                           {"process", share_met(one["parts"], "process")}});
     out["sessions"].push_back(std::move(one));
@@ -200,13 +201,14 @@ Response learner(Store& store, const Request& request) {
     for (const char* part : {"product", "process"}) {
       std::vector<school::study::Attempt> attempts;
       for (const Json& point : points)
-        if (!point[part].is_null())
+        if (!point[part].is_null() && point["finished"].get<bool>())
           attempts.push_back(
               {point["attempt"], "", 100 * point[part].get<double>(), point["guided"]});
       one["curves"][part] = curve_of(attempts);
     }
-    one["unguided"] = std::count_if(points.begin(), points.end(),
-                                    [](const Json& point) { return !point["guided"].get<bool>(); });
+    one["unguided"] = std::count_if(points.begin(), points.end(), [](const Json& point) {
+      return !point["guided"].get<bool>() && point["finished"].get<bool>();
+    });
     out["cases"].push_back(std::move(one));
   }
   return answer(out);

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -29,9 +28,6 @@ struct Options {
   std::vector<std::string> names;
   int port = 8231;
 };
-
-std::atomic<serve::HttpServer*> running = nullptr;
-static_assert(std::atomic<serve::HttpServer*>::is_always_lock_free);
 
 // The names by which a browser may ask: with the port, and without it where it is the usual one.
 std::vector<std::string> hosts_of(const Options& options, unsigned short port) {
@@ -105,15 +101,8 @@ Status run(const Options& options) {
       school::shown(place->address), guard.tls ? "https" : "http", guard.hosts.front(),
       guard.token);
   std::fflush(stdout);
-  running = server->get();
-  struct sigaction stop = {};
-  stop.sa_handler = [](int) {
-    if (serve::HttpServer* const one = running) one->stop();
-  };
-  sigaction(SIGINT, &stop, nullptr);
-  sigaction(SIGTERM, &stop, nullptr);
+  (*server)->stop_at_signals({SIGINT, SIGTERM});
   (*server)->run();
-  running = nullptr;
   return fine();
 }
 

@@ -51,10 +51,14 @@ SessionInfo Pen::completed(const SessionInfo& asked, double rate_hz, bool embed)
 Pen::Pen(std::unique_ptr<McapWriter> writer, const Rings& rings, double rate_hz)
     : rings_(rings), writer_(std::move(writer)), rate_hz_(rate_hz), last_write_(Clock::now()) {}
 
-Result<std::unique_ptr<Pen>> Pen::begin(std::unique_ptr<McapWriter> writer, const SessionInfo& info,
-                                        const volume::Bone* embed, const Rings& rings) {
+Result<std::unique_ptr<Pen>> Pen::begin(std::unique_ptr<McapWriter>& writer,
+                                        const SessionInfo& info, const volume::Bone* embed,
+                                        const Rings& rings) {
   std::unique_ptr<Pen> pen(new Pen(std::move(writer), rings, info.rate_hz));
-  if (Status begun = pen->write_beginning(info, embed); !begun.ok()) return begun.error();
+  if (Status begun = pen->write_beginning(info, embed); !begun.ok()) {
+    writer = std::move(pen->writer_);  // with its lock, until the caller has removed the file
+    return begun.error();
+  }
   return pen;
 }
 

@@ -1,7 +1,7 @@
 // record/pen.h - writes a recording: takes what waits in the rings, and puts it into the file, chunk
 // by chunk.
 //
-//     auto pen = Pen::begin(std::move(writer), info, embed, rings);    // format, topics, bone, session
+//     auto pen = Pen::begin(writer, info, embed, rings);    // format, topics, bone, session
 //     now and then:  (*pen)->drain();
 //     at the end:    (*pen)->drain_last(stopped); (*pen)->finish();
 //
@@ -49,7 +49,7 @@ class Pen {
 
   // Writes the beginning, down to the description of the session. The writer's file is open. info:
   // completed(). embed: nullptr: without the bone.
-  [[nodiscard]] static Result<std::unique_ptr<Pen>> begin(std::unique_ptr<McapWriter> writer,
+  [[nodiscard]] static Result<std::unique_ptr<Pen>> begin(std::unique_ptr<McapWriter>& writer,
                                                           const SessionInfo& info,
                                                           const volume::Bone* embed,
                                                           const Rings& rings);
@@ -57,6 +57,8 @@ class Pen {
   // Called after each chunk that was given to the kernel.
   void set_on_chunk(std::function<void()> what) { on_chunk_ = std::move(what); }
 
+  // The session begins now: pauses are counted from here.
+  void session_begins() { last_write_ = std::chrono::steady_clock::now(); }
   // Writes what waits: one chunk, and a part of a keyframe.
   [[nodiscard]] Status drain() { return drain(false); }
   // Everything that waits, the keyframe, and the account. stopped: the session ended before its time.

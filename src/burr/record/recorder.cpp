@@ -233,12 +233,13 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
       !being_written(beside))
     ::unlink(beside.c_str());
   if (Status opened = writer->open(beside, path); !opened.ok()) return opened;
-  auto pen = Pen::begin(std::move(writer), info, embed,
-                        {ticks_, commands_, bricks_, second_ ? &*second_ : nullptr});
+  auto pen =
+      Pen::begin(writer, info, embed, {ticks_, commands_, bricks_, second_ ? &*second_ : nullptr});
   if (!pen) return give_up(pen.error());
   if (Status synced = (*pen)->writer().sync(); !synced.ok()) return give_up(synced.error());
   if (Status placed = rename_and_sync(beside, path); !placed.ok()) return give_up(placed.error());
 
+  (*pen)->session_begins();
   writer_thread_ = std::make_unique<WriterThread>(*this, std::move(*pen), std::move(on_trouble));
   return fine();
 }

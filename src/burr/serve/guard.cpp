@@ -52,11 +52,13 @@ Result<std::string> token_from(const std::string& file) {
   auto text = base::text_of_file(file, 4096, "a token; check that this is the right file");
   if (!text) return text.error();
   std::string token(base::trimmed(*text));
-  const bool plain =
-      std::all_of(token.begin(), token.end(), [](char c) { return c > 0x20 && c < 0x7f; });
+  const bool plain = token.find_first_not_of(
+                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~") ==
+                     std::string::npos;
   if (token.size() < kShortestToken || !plain)
-    return error(fmt::format("{}: a token has at least {} letters, digits or signs, without blanks",
-                             name, kShortestToken));
+    return error(
+        fmt::format("{}: a token has at least {} letters and digits, and of signs only - . _ ~",
+                    name, kShortestToken));
   return token;
 }
 

@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/signal_set.hpp>
 #include <boost/asio/ssl.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/ssl.hpp>
@@ -11,10 +13,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "burr/serve/guard.h"
 
@@ -111,7 +116,17 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
     head_only_ = request.method == "HEAD";
     if (!readable) return send(refusal(400, "this address cannot be read"), true);
     if (twice) return send(refusal(400, "a field of the head is there twice"), true);
-    send(shared_.answer(request), last);
+    send(answered(request), last);
+  }
+
+  // What the answer throws (no memory, odd content of the store) must not end the server.
+  Response answered(const Request& request) const {
+    try {
+      return shared_.answer(request);
+    } catch (const std::exception& trouble) {
+      fmt::print(stderr, "{} {}: {}\n", request.method, request.path, trouble.what());
+      return refusal(500, "burr could not answer; its terminal says why");
+    }
   }
 
   void send(Response response, bool last) {
@@ -198,6 +213,12 @@ class Server final : public HttpServer {
     context_.run();
   }
   void stop() override { context_.stop(); }
+  void stop_at_signals(const std::vector<int>& signals) override {
+    for (const int signal : signals) signals_.add(signal);
+    signals_.async_wait([this](beast::error_code trouble, int) {
+      if (!trouble) stop();
+    });
+  }
 
  private:
   Status with_tls(const Door& door) {
@@ -226,7 +247,11 @@ class Server final : public HttpServer {
     acceptor_.async_accept([this](beast::error_code trouble, Tcp::socket socket) {
       if (trouble == asio::error::operation_aborted) return;
       if (!trouble && shared_.connections < kMostConnections) begin(std::move(socket));
-      accept();  // what was not taken is closed here
+      if (!trouble) return accept();                         // what was not taken is closed here
+      pause_.expires_after(std::chrono::milliseconds(100));  // too many open files, for example
+      pause_.async_wait([this](beast::error_code ended) {
+        if (!ended) accept();
+      });
     });
   }
 
@@ -243,6 +268,8 @@ class Server final : public HttpServer {
   std::optional<asio::ssl::context> tls_;
   asio::io_context context_{1};  // connections in it go first: it is destroyed before what they use
   Tcp::acceptor acceptor_{context_};
+  asio::signal_set signals_{context_};
+  asio::steady_timer pause_{context_};
 };
 
 }  // namespace

@@ -5,12 +5,13 @@
 //
 // No file is read by a path of a request, no upload is kept. A request has a head of at most 16 KiB and a body of at most
 // 64 KiB, and must arrive within Door::wait_s; at most 128 connections are open, further ones are closed at once.
-// Thread: run() in one; the answers are made there, one after the other.
+// Thread: run() in one; the answers are made there, one after the other. An answer that throws becomes 500.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "burr/base/result.h"
 #include "burr/serve/request.h"
@@ -34,7 +35,9 @@ class HttpServer {
 
   [[nodiscard]] virtual unsigned short port() const = 0;
   virtual void run() = 0;
-  virtual void stop() = 0;  // thread: any
+  virtual void stop() = 0;  // thread: any; not from a signal's handler
+  // These signals end run(). Call it once, before run().
+  virtual void stop_at_signals(const std::vector<int>& signals) = 0;
 };
 
 // An address of the computer itself: 127.x.x.x or ::1.

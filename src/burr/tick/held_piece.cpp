@@ -21,6 +21,7 @@ void HeldPiece::lift(const edit::PieceBody& body) BURR_RT {
   now_.goal = body.at;
   touch_.take(body.tool);
   touch_.place(body.at);
+  tip_ = body.at.p;
   contact_ = {};
 }
 
@@ -53,9 +54,12 @@ void HeldPiece::grab(const Pose& hand) BURR_RT {
 
 void HeldPiece::shift(const Pose& goal, const Pose& hand) BURR_RT {
   if (!now_.lifted) return;
+  // A hand that holds it lets go, and has to open its grip before it can hold again: the wanted place
+  // leaps, and the force on the hand must not.
+  now_.held = now_.may_grab = false;
   now_.goal = goal;
   now_.grabbed = hand;
-  now_.goes = !now_.held;
+  now_.goes = true;
 }
 
 void HeldPiece::rest(const Vec3& hand) BURR_RT {

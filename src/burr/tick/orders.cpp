@@ -158,7 +158,7 @@ void Orders::take_tool(double number, std::uint32_t& flags) BURR_RT {
 
 // A command may come from a file that says anything.
 void Orders::shift_piece(const edit::PieceMove& move) BURR_RT {
-  constexpr double kFarthest = 1;  // [m]
+  constexpr double kFarthest = 1e3;  // as for a hand: a scan keeps the origin of its scanner  [m]
   math::Pose goal;
   double square = 0;
   for (const double part : move.turn) square += part * part;

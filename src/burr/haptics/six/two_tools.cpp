@@ -475,11 +475,22 @@ void TwoTools::rub(Rubbing& one, Rubbing& other, Guesses& guess, Twist& twist, S
   if (!one.rubs && !other.rubs) return;
   const double close = one.proxy.settings_.close / one.proxy.grid_.voxel;
   const auto go = [&]() BURR_RT {
+    SixProxy &a = one.proxy, &b = other.proxy;
+    const math::Pose at_a{a.c_, a.r_}, at_b{b.c_, b.r_}, goal_a = one.goal(), goal_b = other.goal();
     Twist to;
-    static_cast<void>(seek(one.proxy, other.proxy, one.goal(), other.goal(), kHoldMoves, guess, to,
-                           touch_a, touch_b));
-    if (to.solved) twist = to;
-    return to.solved;
+    static_cast<void>(seek(a, b, goal_a, goal_b, kHoldMoves, guess, to, touch_a, touch_b));
+    const bool solved = to.solved;
+    if (!solved) {  // back, with the rows of that place: forces are told from them
+      a.c_ = at_a.p;
+      a.r_ = at_a.q;
+      b.c_ = at_b.p;
+      b.r_ = at_b.q;
+      move(a, b, a.wanted(goal_a.p, goal_a.q), b.wanted(goal_b.p, goal_b.q), guess.a, guess.b, to,
+           touch_a, touch_b);
+      touch_a.lagging = touch_b.lagging = true;
+    }
+    twist = to;
+    return solved;
   };
   if (!go()) return;
   for (int round = 0; round < kHoldRounds; ++round) {
@@ -495,7 +506,7 @@ void TwoTools::rub(Rubbing& one, Rubbing& other, Guesses& guess, Twist& twist, S
 }
 
 // Friction of each by itself, where the tools rest on the bone only. False: it would draw one into the
-// other; then nothing has changed.
+// other; then both are where they were, but their rows are not.
 bool TwoTools::rub_alone(SixProxy& a, SixProxy& b, const math::Pose& before_a,
                          const math::Pose& before_b, const math::Pose& goal_a,
                          const math::Pose& goal_b, const Twist& twist, SixTouch& touch_a,
@@ -548,9 +559,12 @@ void TwoTools::step(const HeldTool& a, const HeldTool& b, SixTouch& touch_a,
   const bool lags = !twist.solved || twist.cut_short || (rests && left > kRest);
   touch_a.lagging = touch_b.lagging = lags;
   const bool rubs = one.friction_.sticks > 0 || other.friction_.sticks > 0;
-  if (rubs && twist.meets == 0 &&
-      rub_alone(one, other, before_a, before_b, goal_a, goal_b, twist, touch_a, touch_b))
-    return;
+  if (rubs && twist.meets == 0) {
+    if (rub_alone(one, other, before_a, before_b, goal_a, goal_b, twist, touch_a, touch_b)) return;
+    // that trial left the rows of other places
+    move(one, other, one.wanted(goal_a.p, goal_a.q), other.wanted(goal_b.p, goal_b.q), guess.a,
+         guess.b, twist, touch_a, touch_b);
+  }
   Rubbing rubs_a(one, rests_a_, before_a, goal_a, twist.bone_a, twist.solved),
       rubs_b(other, rests_b_, before_b, goal_b, twist.bone_b, twist.solved);
   rub(rubs_a, rubs_b, guess, twist, touch_a, touch_b);

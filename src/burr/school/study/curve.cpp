@@ -42,7 +42,7 @@ Matrix design(const Points& points, const Shape& shape) {
 }
 
 struct Fit {
-  Vector coefficients, residuals, leverage;
+  Vector coefficients, residuals;
   double scale = 0;
 };
 
@@ -72,9 +72,20 @@ Fit robust(const Matrix& x, const Vector& y) {
       weights[k] = size <= limit ? 1 : limit / size;
     }
   }
-  const Matrix q = x.colPivHouseholderQr().householderQ() * Matrix::Identity(x.rows(), x.cols());
-  fit.leverage = q.rowwise().squaredNorm();
   return fit;
+}
+
+// How much each point holds the curve to itself, 0 to 1. rate: of an exponential, whose column is linearised; 0: none.
+Vector leverage_of(const Points& points, const Matrix& x, double b, double rate) {
+  Matrix all = x;
+  if (rate > 0) {
+    all.conservativeResize(Eigen::NoChange, x.cols() + 1);
+    all.col(x.cols()) =
+        b * (points.number.array() * (-rate * points.number.array()).exp()).matrix();
+  }
+  const Matrix q =
+      all.colPivHouseholderQr().householderQ() * Matrix::Identity(all.rows(), all.cols());
+  return q.rowwise().squaredNorm();
 }
 
 // Huber's loss with this scale; half the sum of squares where no residual is large.
@@ -94,9 +105,15 @@ double aicc(double loss, Eigen::Index count, Eigen::Index parameters) {
   return n * std::log(std::max(2 * loss / n, 1e-300)) + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
-Fit inverse_fit(const Points& points) {
-  return robust(design(points, [](double n) { return 1 / n; }), points.mark);
+Matrix inverse_design(const Points& points) {
+  return design(points, [](double n) { return 1 / n; });
 }
+
+Matrix exponential_design(const Points& points, double rate) {
+  return design(points, [rate](double n) { return std::exp(-rate * n); });
+}
+
+Fit inverse_fit(const Points& points) { return robust(inverse_design(points), points.mark); }
 
 struct Rated {
   double rate = 0;
@@ -104,8 +121,7 @@ struct Rated {
 };
 
 Rated at_rate(const Points& points, double rate) {
-  return {rate,
-          robust(design(points, [rate](double n) { return std::exp(-rate * n); }), points.mark)};
+  return {rate, robust(exponential_design(points, rate), points.mark)};
 }
 
 double badness(const Points& points, double log_rate, double scale) {
@@ -219,9 +235,8 @@ Curve fit_curve(const std::vector<Attempt>& attempts) {
   out.guided = static_cast<int>(attempts.size()) - out.unguided;
   // the attempts must also hold more than the curve's numbers, and must not all have the same number
   const Eigen::Index parameters = 1 + points.bones;
-  if (out.unguided < std::max<Eigen::Index>(kFewestAttempts, parameters + 3) ||
-      points.number.minCoeff() == points.number.maxCoeff())
-    return out;
+  out.needed = std::max(kFewestAttempts, static_cast<int>(parameters) + 3);
+  if (out.unguided < out.needed || points.number.minCoeff() == points.number.maxCoeff()) return out;
   const Fit inverse = inverse_fit(points);
   take(out, CurveKind::inverse, inverse, 0);
   const double scale = inverse.scale;
@@ -244,8 +259,11 @@ std::vector<Interval> band(const std::vector<Attempt>& attempts, const Curve& cu
       curve.kind == CurveKind::inverse ? inverse_fit(points) : at_rate(points, curve.c).fit;
   const Vector fitted = points.mark - fit.residuals;
   Vector spread = fit.residuals;
+  const Matrix x = curve.kind == CurveKind::inverse ? inverse_design(points)
+                                                    : exponential_design(points, curve.c);
+  const Vector leverage = leverage_of(points, x, curve.b, curve.c);
   for (Eigen::Index n = 0; n < spread.size(); ++n)
-    spread[n] /= std::sqrt(std::max(1e-3, 1 - fit.leverage[n]));
+    spread[n] /= std::sqrt(std::max(1e-3, 1 - leverage[n]));
   spread.array() -= spread.mean();
   std::vector<std::vector<double>> drawn(static_cast<std::size_t>(last));
   for (int draw = 0; draw < kDraws; ++draw) {

@@ -35,6 +35,8 @@ enum class CurveKind { points, inverse, exponential };  // points: too few for a
 struct Curve {
   CurveKind kind = CurveKind::points;
   int unguided = 0, guided = 0;
+  int needed =
+      kFewestAttempts;  // attempts without guidance for a fit: one more for each further bone
   double a = 0, b = 0, c = 0;
   std::vector<std::string> bones;
   std::vector<double> offsets;  // of each bone; the first is 0

@@ -24,6 +24,12 @@ struct Counts {
   void add(const Pair& pair) {
     (pair.first ? (pair.second ? both : first) : (pair.second ? second : neither)) += 1;
   }
+  void add(const Counts& other) {
+    both += other.both;
+    first += other.first;
+    second += other.second;
+    neither += other.neither;
+  }
   [[nodiscard]] double all() const { return both + first + second + neither; }
   [[nodiscard]] double agreement() const { return (both + neither) / all(); }
   [[nodiscard]] std::optional<double> kappa() const {
@@ -49,17 +55,19 @@ std::string& once(std::vector<std::string>& list, const std::string& text) {
 // rater -> product -> item -> mark
 using Marks = std::map<std::string, std::map<std::string, std::map<std::string, bool>>>;
 
-// The marks of two raters for one item; "": for all items.
-std::vector<Pair> pairs_of(const Marks& marks, const std::string& a, const std::string& b,
-                           const std::string& item) {
-  std::vector<Pair> out;
+// The marks of two raters for one item, by product; "": for all items.
+std::vector<std::vector<Pair>> pairs_of(const Marks& marks, const std::string& a,
+                                        const std::string& b, const std::string& item) {
+  std::vector<std::vector<Pair>> out;
   for (const auto& [product, items] : marks.at(a)) {
     const auto other = marks.at(b).find(product);
     if (other == marks.at(b).end()) continue;
+    std::vector<Pair> pairs;
     for (const auto& [name, met] : items)
       if (item.empty() || name == item)
         if (const auto same = other->second.find(name); same != other->second.end())
-          out.emplace_back(met, same->second);
+          pairs.emplace_back(met, same->second);
+    if (!pairs.empty()) out.push_back(std::move(pairs));
   }
   return out;
 }
@@ -102,19 +110,25 @@ std::vector<std::string> items_for_a_person(const RaterStudy& study) {
 
 }  // namespace
 
-Agreement agreement(const std::vector<Pair>& marks, std::uint64_t seed) {
+Agreement agreement(const std::vector<std::vector<Pair>>& products, std::uint64_t seed) {
+  std::vector<Counts> of_products;
   Counts counts;
-  for (const Pair& pair : marks) counts.add(pair);
+  for (const std::vector<Pair>& pairs : products) {
+    Counts& one = of_products.emplace_back();
+    for (const Pair& pair : pairs) one.add(pair);
+    counts.add(one);
+  }
   Agreement out;
-  out.products = static_cast<int>(marks.size());
+  out.products = static_cast<int>(products.size());
+  out.marks = static_cast<int>(counts.all());
   out.agreement = counts.agreement();
   out.kappa = counts.kappa();
   out.ac1 = counts.ac1();
   out.prevalence_index = std::abs(counts.both - counts.neither) / counts.all();
   const auto drawn = [&](people::RandomStream& random) {
     Counts again;
-    for (std::size_t n = 0; n < marks.size(); ++n)
-      again.add(marks[static_cast<std::size_t>(random.below(out.products))]);
+    for (std::size_t n = 0; n < of_products.size(); ++n)
+      again.add(of_products[static_cast<std::size_t>(random.below(out.products))]);
     return again;
   };
   out.kappa_95 =
@@ -188,7 +202,8 @@ Result<RaterStudy> study_raters(const std::vector<Rating>& ratings, std::uint64_
   for (const std::string& item : items)
     for (std::size_t a = 0; a < out.raters.size(); ++a)
       for (std::size_t b = a + 1; b < out.raters.size(); ++b) {
-        const std::vector<Pair> pairs = pairs_of(marks, out.raters[a], out.raters[b], item);
+        const std::vector<std::vector<Pair>> pairs =
+            pairs_of(marks, out.raters[a], out.raters[b], item);
         if (static_cast<int>(pairs.size()) >= kFewestProducts)
           out.pairs.push_back({item, out.raters[a], out.raters[b], agreement(pairs, seed)});
       }

@@ -25,17 +25,19 @@ namespace burr::school::study {
 
 constexpr int kFewestProducts = 10;  // below it nothing is said of raters
 
-using Pair = std::pair<bool, bool>;  // the marks of two raters for one product
+using Pair = std::pair<bool, bool>;  // the marks of two raters for one item of one product
 
 struct Agreement {
-  int products = 0;
+  int products = 0,
+      marks = 0;  // marks: pairs of them; as many as products where it is about one item
   double agreement = 0, prevalence_index = 0;
   std::optional<double> kappa;  // none where both raters gave the same mark to all
   double ac1 = 0;
   Interval kappa_95 = {}, agreement_95 = {};  // of 2000 samples of the products
 };
-// At least one pair.
-[[nodiscard]] Agreement agreement(const std::vector<Pair>& marks, std::uint64_t seed = 1);
+// products: the pairs of each, at least one in all. A sample takes a product with all its pairs, since they belong together.
+[[nodiscard]] Agreement agreement(const std::vector<std::vector<Pair>>& products,
+                                  std::uint64_t seed = 1);
 
 // totals[product][rater], at least 2 products and 2 raters.
 [[nodiscard]] double icc_a1(const std::vector<std::vector<double>>& totals);

@@ -42,6 +42,7 @@ Result<Records> records_of(std::string_view text, const std::string& file) {
   while (at < text.size()) {
     const int begins = line;
     std::vector<std::string> fields;
+    const std::size_t start = at;
     std::size_t from = at;
     bool quoted = false, ended = false;
     for (; !ended; ++at) {
@@ -57,7 +58,7 @@ Result<Records> records_of(std::string_view text, const std::string& file) {
       ended = c == '\n';
     }
     const bool blank = fields.size() == 1 && fields.front().empty();
-    const bool remark = !fields.front().empty() && fields.front().front() == '#';
+    const bool remark = base::trimmed(text.substr(start)).starts_with('#');  // not in quotes
     if (blank || remark) continue;
     out.fields.push_back(std::move(fields));
     out.lines.push_back(begins);
