@@ -428,6 +428,28 @@ TEST(HeldPiece, GoesWhereItIsWantedAsFarAsTheBoneLetsIt) {
   EXPECT_NEAR(bench.moved().z(), -kKerf, 0.06 * kVoxel) << "no rotation: refused";
 }
 
+// A place from a command or a file: the hand that holds the piece lets go, and its force does not leap with the place.
+TEST(HeldPiece, AWantedPlaceTakesItOutOfTheHand) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  bench.grab();
+  ASSERT_EQ(bench.row.piece.state, tick::PieceRow::kHeld);
+  edit::PieceMove to;
+  const Pose from = bench.servo.piece().pose();
+  for (int axis = 0; axis < 3; ++axis) to.by[static_cast<std::size_t>(axis)] = from.p[axis];
+  to.by[1] += 4 * kMm;  // along the kerf
+  to.turn = {from.q.x(), from.q.y(), from.q.z(), from.q.w()};
+  bench.servo.commands().push(
+      {CommandKind::shift_piece, static_cast<double>(bench.piece.number), to});
+  double most = 0;
+  for (int n = 0; n < 700; ++n) most = std::max(most, bench.tick().contact.force.norm());
+  EXPECT_LT(most, 0.01);
+  EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kLies);  // the button is still down
+  EXPECT_NEAR((bench.servo.piece().pose().p - from.p).norm(), 4 * kMm, 0.1 * kMm);
+  bench.grab();
+  EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kHeld);
+}
+
 TEST(HeldPiece, AStaleLiftIsRefused) {
   Bench bench;
   edit::PieceMove move = further(bench.piece, Vec3::Zero(), Quat::Identity());

@@ -51,7 +51,7 @@ class HeldPiece final : public haptics::TouchMethod {
   void grab(const math::Pose& hand) BURR_RT;
   // The hand lets go, until its button was up.
   void let_go() BURR_RT { now_.let_go = true; }
-  // Another place for it, as the body's pose; a hand that holds it holds it there from now on.
+  // Another place for it, as the body's pose; a hand that holds it lets go, or its force would leap with the place.
   void shift(const math::Pose& goal, const math::Pose& hand) BURR_RT;
   // A tick in which no hand holds it. hand: where the hand is.
   void rest(const math::Vec3& hand) BURR_RT;
