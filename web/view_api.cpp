@@ -157,7 +157,7 @@ EMSCRIPTEN_KEEPALIVE void view_row(const void* bytes) {
   View& v = view();
   std::memcpy(static_cast<void*>(&v.row), bytes, sizeof v.row);
   workshop::put_tool(v.scene, v.row, false);
-  v.wound->see(workshop::wound_tick(v.row, web::kRate));
+  v.wound->see(workshop::wound_tick(v.row, web::kRate, {}));
 }
 // What the page writes of the row: time [s], force [N], removed [mm^3], diameter of the burr [mm],
 // speed that is set [rpm], speed now [rpm], touching, flags, pressed [mm].

@@ -91,6 +91,118 @@ TEST(Wound, IsFreshWhereItWasCutAndDullsInItsTime) {
   EXPECT_EQ(wound.at(face).fresh, 0);
 }
 
+// A tool that stays where it is: it removes a cubic millimetre in a second, then waits for its dust to
+// settle.
+void cut_with(Wound& wound, Wound::Tick tick) {
+  for (int n = 0; n < 240; ++n) {
+    tick.t = n / 60.0;
+    tick.removed = 1e-9 * std::min(1.0, n / 60.0);
+    wound.see(tick);
+  }
+}
+
+// A saw throws its dust along its stroke, what turns to all sides, a chisel makes none.
+TEST(Wound, DustLiesWhereTheToolThrowsIt) {
+  const Vec3 tip(0.03, -0.02, 0.011), x = Vec3::UnitX(), y = Vec3::UnitY();
+  const double near = kRadius + 2e-3, far = kRadius + 9e-3;
+  const auto with = [&](double dust, const Vec3& stroke) {
+    Wound wound(kVoxel);
+    Wound::Tick tick;
+    tick.tip = tip;
+    tick.radius = kRadius;
+    tick.dust = dust;
+    tick.stroke = stroke;
+    cut_with(wound, tick);
+    return wound;
+  };
+  const Wound turns = with(1, Vec3::Zero());
+  EXPECT_GT(turns.at(tip + near * x).dust, 0.02F);
+  EXPECT_NEAR(turns.at(tip + near * x).dust, turns.at(tip + near * y).dust, 0.02F);
+  EXPECT_EQ(turns.at(tip + far * x).dust, 0);
+  const Wound saws = with(1, y);
+  EXPECT_GT(saws.at(tip + near * y).dust, 0.02F);
+  EXPECT_GT(saws.at(tip + far * y).dust, 0.005F);
+  EXPECT_GT(saws.at(tip - far * y).dust, 0.005F) << "to both ends of the stroke";
+  EXPECT_EQ(saws.at(tip + near * x).dust, 0);
+  const Wound chisels = with(0, Vec3::Zero());
+  EXPECT_EQ(chisels.in_the_air(), 0);
+  for (const Vec3& way : {x, y}) EXPECT_EQ(chisels.at(tip + near * way).dust, 0);
+  EXPECT_NEAR(chisels.at(tip - Vec3(0, 0, kRadius)).fresh,
+              turns.at(tip - Vec3(0, 0, kRadius)).fresh, 1e-6)
+      << "the cut looks the same";
+  // as much lies about a saw as about a burr: the volumes of the two cones
+  const auto lies = [&](const Wound& wound) {
+    double sum = 0;
+    for (int i = -40; i <= 40; ++i)
+      for (int j = -40; j <= 40; ++j) {
+        const double cover =
+            static_cast<double>(wound.at(tip + 0.5e-3 * i * x + 0.5e-3 * j * y).dust);
+        const double off = 0.5e-3 * std::hypot(i, j);
+        if (off > kRadius + 2e-3) sum += -std::log(1 - std::min(cover, 0.999));
+      }
+    return sum;
+  };
+  EXPECT_GT(lies(saws), 0.4 * lies(turns));
+}
+
+// Both hands: each cut is fresh where it was made, each tool has its own dust, and what the other removed
+// is not thrown by the first.
+TEST(Wound, TheToolOfTheOtherHandLeavesItsOwnMarks) {
+  const Vec3 tip(0.03, -0.02, 0.011), other = tip + Vec3(0, 9e-3, 0);
+  Wound wound(kVoxel);
+  Wound::Tick first, second;
+  first.tip = tip;
+  second.tip = other;
+  first.radius = second.radius = 1e-3;
+  for (int n = 0; n <= 120; ++n) {
+    first.t = second.t = n / 60.0;
+    second.removed = first.removed = first.others = 1e-9 * n / 120;  // the second alone cuts
+    wound.see(first);
+    wound.see_beside(second);
+  }
+  EXPECT_EQ(wound.at(tip - Vec3(0, 0, 1e-3)).fresh, 0);
+  EXPECT_NEAR(wound.at(other - Vec3(0, 0, 1e-3)).fresh, 1, 1e-5);
+  EXPECT_GT(wound.at(other + Vec3(0, 3e-3, 0)).dust, 0.02F);
+  EXPECT_EQ(wound.at(tip - Vec3(0, 5e-3, 0)).dust, 0);
+  // a mouth beside it takes what is in the air
+  ASSERT_GT(wound.in_the_air(), 0);
+  const double before = wound.in_the_air();
+  wound.suck(other, 1.5e-3, Wound::kSuctionTime);
+  EXPECT_NEAR(wound.in_the_air(), before * std::exp(-1), 0.02 * before);
+  // then the first cuts too: the marks of both are there, and an undo takes both
+  for (int n = 1; n <= 60; ++n) {
+    first.t = second.t = 2 + n / 60.0;
+    first.removed = 1e-9 + 1e-9 * n / 60;
+    wound.see(first);
+    wound.see_beside(second);
+  }
+  EXPECT_NEAR(wound.at(tip - Vec3(0, 0, 1e-3)).fresh, 1, 1e-5);
+  first.t += 0.02;
+  first.undone = 2e-9;
+  wound.see(first);
+  EXPECT_EQ(wound.at(tip - Vec3(0, 0, 1e-3)).fresh, 0);
+  EXPECT_EQ(wound.in_the_air(), 0);
+}
+
+// The rows of a window are not of the same tick, and the two sums round differently.
+TEST(Wound, ALaterRowOfTheOtherHandLeavesNoMarkOfTheFirst) {
+  const Vec3 tip(0.03, -0.02, 0.011), other = tip + Vec3(0, 9e-3, 0);
+  Wound wound(kVoxel);
+  Wound::Tick first, second;
+  first.tip = tip;
+  second.tip = other;
+  first.radius = second.radius = 1e-3;
+  for (int n = 0; n <= 120; ++n) {
+    first.t = second.t = n / 60.0;
+    first.removed = 1e-9 * n + (n % 3 == 1 ? 1e-20 : 0);
+    first.others = second.removed = n == 0 ? 0 : 1e-9 * (n + 0.2 * (n % 4));  // 0 to 0.6 of a step
+    wound.see(first);
+    wound.see_beside(second);
+  }
+  EXPECT_EQ(wound.at(tip - Vec3(0, 0, 1e-3)).fresh, 0);
+  EXPECT_NEAR(wound.at(other - Vec3(0, 0, 1e-3)).fresh, 1, 1e-5);
+}
+
 TEST(Wound, IsWetWhereCoolantRanAndDriesInItsTime) {
   Wound wound(kVoxel);
   Milling milling(wound);

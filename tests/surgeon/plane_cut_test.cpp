@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "burr/phantom/build.h"
@@ -109,6 +110,37 @@ TEST(PlaneCut, EveryToolGoesThroughAndNoFarther) {
     EXPECT_NEAR(path->duration(), 60, 2);
   }
   EXPECT_FALSE(cut_along(*bone, *plane, round_blade(1 * kMm), 1).ok());
+}
+
+// A box 20 x 16 x 6 mm, met across: 16 x 6 mm; half of it cut away leaves half, and needs twice the time
+// and a fifth more.
+TEST(PlaneCut, WhatIsLeftInThePlaneSaysHowLongTheCutNeeds) {
+  const auto plane = plane_of(slab(), "cut");
+  ASSERT_TRUE(plane.ok());
+  const auto area = [&plane](const phantom::Depth& depth) {
+    return bone_in_plane(
+        *phantom::bone_from_distance(
+            phantom::box_grid(Vec3(-6, -12, -6) * kMm, Vec3(12, 12, 6) * kMm, 0.25 * kMm), {},
+            depth),
+        *plane);
+  };
+  const phantom::Depth box = phantom::box({10 * kMm, 8 * kMm, 3 * kMm});
+  const double whole = area(box);
+  EXPECT_NEAR(whole, 96 * kMm * kMm, 5 * kMm * kMm);
+  // all above z = 0 is cut away along the plane, 1 mm wide
+  const double half = area([&box](const Vec3& p) {
+    const double kerf = std::min(0.5 * kMm - std::abs(p.x() - 3 * kMm), p.z());
+    return std::min(box(p), -kerf);
+  });
+  EXPECT_NEAR(half / whole, 0.5, 0.05);
+  EXPECT_EQ(area([&box](const Vec3& p) {
+              return std::min(box(p), std::abs(p.x() - 3 * kMm) - 0.5 * kMm);
+            }),
+            0);
+  EXPECT_EQ(seconds_needed(240, 0.5), 600);  // 576, in whole minutes
+  EXPECT_EQ(seconds_needed(240, 0.1), 360);
+  EXPECT_GT(seconds_needed(240, 1), 30'000) << "nothing was cut";
+  EXPECT_LE(seconds_needed(36'000, 1), 36'000);
 }
 
 }  // namespace

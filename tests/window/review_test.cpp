@@ -26,6 +26,7 @@
 #include "report/questions.h"
 #include "user.h"
 #include "window/review/enter_session.h"
+#include "window/review/review_page.h"
 #include "window/review/self_marks_page.h"
 #include "window/start/sessions.h"
 #include "window/start/start_page.h"
@@ -142,6 +143,36 @@ say = "Clear the groove."
   EXPECT_TRUE(std::is_sorted(shares.all.begin(), shares.all.end()));
   EXPECT_LT(shares.all[shares.all.size() / 4], 0.7);
   EXPECT_LT(shares.all.back(), 1);
+}
+
+// The pieces of bone that were moved stand at the left, above the advice.
+TEST_F(ReviewWindow, ShowsThePiecesThatWereMoved) {
+  Report report;
+  report.nothing_next = "nothing";
+  const auto written = [&] {  // light pixels of the left column
+    ReviewState state;
+    state.report = &report;
+    const render::Scene empty;
+    for (int n = 0; n < 3; ++n)
+      EXPECT_TRUE(desk_->show(
+          empty, [&] { static_cast<void>(draw_review(desk_->ui(), state)); }, true));
+    const render::Image image = desk_->renderer().shown();
+    long light = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width / 3; ++x)
+        light +=
+            image.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                           static_cast<std::size_t>(x))] > 120
+                ? 1
+                : 0;
+    return light;
+  };
+  const long without = written();
+  report.pieces = {{"piece 1", "412 mm3, moved 5.0 mm and turned 2.0 degrees; gap 0.7 mm"}};
+  const long one = written();
+  EXPECT_GT(one, without + 500);
+  report.pieces.emplace_back("piece 2", "81 mm3, moved 1.0 mm");
+  EXPECT_GT(written(), one + 50);
 }
 
 // Enter goes on from the own marks. A full report whose page is closed early is still written, and the

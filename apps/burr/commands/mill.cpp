@@ -87,9 +87,16 @@ Status take_case(Options& options) {
   return fine();
 }
 
+// A cut along a plane: through what it should go.
+struct StepCut {
+  surgeon::CutPlane plane;
+  double area = 0,
+         seconds = 0;  // of bone in the plane before the cut [m^2]; the duration asked for
+};
+
 // The cut along the plane of a step of the case.
 Result<device::HandPath> step_path(const Options& options, const volume::Bone& bone,
-                                   surgeon::WorkPlace& place) {
+                                   surgeon::WorkPlace& place, std::optional<StepCut>& cut) {
   if (!options.work_case)
     return error(
         Trouble::usage,
@@ -104,15 +111,16 @@ Result<device::HandPath> step_path(const Options& options, const volume::Bone& b
   const surgeon::Blade blade =
       *tool ? surgeon::blade_of((*tool)->tool, (*tool)->cutter, (*tool)->lean)
             : surgeon::round_blade(0.5e-3 * options.burr_mm);
-  auto path = surgeon::cut_along(bone, *plane, blade,
-                                 options.seconds_given ? options.seconds : kStepSeconds);
+  const double seconds = options.seconds_given ? options.seconds : kStepSeconds;
+  auto path = surgeon::cut_along(bone, *plane, blade, seconds);
+  cut = {*plane, surgeon::bone_in_plane(bone, *plane), seconds};
   if (path) place = {path->points.front().world_from_tool.p, -plane->out};
   return path;
 }
 
 Result<device::HandPath> hand_path(const Options& options, const volume::Bone& bone,
-                                   surgeon::WorkPlace& place) {
-  if (options.motion_name.starts_with(kStepMotion)) return step_path(options, bone, place);
+                                   surgeon::WorkPlace& place, std::optional<StepCut>& cut) {
+  if (options.motion_name.starts_with(kStepMotion)) return step_path(options, bone, place, cut);
   std::optional<Vec3> at, into;
   if (!options.at_mm.empty())
     at = Vec3(options.at_mm[0], options.at_mm[1], options.at_mm[2]) * 1e-3;
@@ -216,6 +224,24 @@ nlohmann::json heat_json(const sim::Session& session, const thermal::HeatSummary
           {"tissues", tissues}};
 }
 
+// Is the cut through? A sentence if not, and how much of the bone in the plane is left, 0 to 1.
+struct CutLeft {
+  double share = 0, needs_s = 0;  // needs_s: 0: it is through
+  std::string sentence;
+};
+std::optional<CutLeft> left_of(const std::optional<StepCut>& cut, const volume::Bone& bone) {
+  if (!cut || cut->area <= 0) return std::nullopt;
+  CutLeft left;
+  left.share = std::min(1.0, surgeon::bone_in_plane(bone, cut->plane) / cut->area);
+  if (left.share <= 0) return left;
+  left.needs_s = surgeon::seconds_needed(cut->seconds, left.share);
+  left.sentence = fmt::format(
+      "{:.1f} % of the bone in the plane is left: this tool needs more than {:.0f} s, "
+      "try --seconds {:.0f}",
+      100 * left.share, cut->seconds, left.needs_s);
+  return left;
+}
+
 // One after the other, while the hand rests where the motion ended.
 Status move_pieces(const std::vector<sim::PieceOrder>& orders, sim::Session& session,
                    edit::PieceStore& store) {
@@ -287,11 +313,13 @@ void rest_at_end(device::HandPath& path) {
 struct Told {
   const std::vector<std::string>& doubts;
   std::vector<MovedPiece> pieces;  // that were moved
+  std::optional<CutLeft> left;     // of a cut along a plane
 };
 
 void print(const Options& options, sim::Session& session, const Recording& recording,
            const Told& told) {
-  const std::vector<std::string>& doubts = told.doubts;
+  std::vector<std::string> doubts = told.doubts;
+  if (told.left && !told.left->sentence.empty()) doubts.push_back(told.left->sentence);
   const sim::Outcome outcome = session.outcome();
   const rt::TickSummary& t = outcome.timing;
   thermal::HeatSummary heat;
@@ -328,6 +356,10 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   if (!options.move_pieces.empty() || !options.carry_piece.empty()) {
     out["moved_loss_mm3"] = 1e9 * outcome.ledger.moved;
     out["pieces"] = pieces_json(told.pieces);
+  }
+  if (told.left) {
+    out["plane_left"] = told.left->share;
+    out["plane_needs_s"] = told.left->needs_s;
   }
   out["peak_force_N"] = outcome.peak_force;
   out["mean_force_N"] = outcome.mean_force;
@@ -393,6 +425,13 @@ void set_servo(const Options& options, tick::ServoSettings& servo) {
   servo.irrigated = options.irrigated;
 }
 
+device::ArmSettings arm_of(std::string_view grip) {
+  device::ArmSettings arm;
+  if (grip == "rigid") arm.stiffness = INFINITY;
+  if (grip == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
+  return arm;
+}
+
 Status run(Options options) {
   if (options.path_csv.empty() == options.motion_name.empty())
     return error(Trouble::usage,
@@ -421,7 +460,8 @@ Status run(Options options) {
   if (!opened) return opened.error();
 
   surgeon::WorkPlace place;
-  auto path = hand_path(options, *opened->bone, place);
+  std::optional<StepCut> cut;
+  auto path = hand_path(options, *opened->bone, place, cut);
   if (!path) return path.error();
   const bool own_motion = options.path_csv.empty() && !options.motion_name.starts_with(kStepMotion);
   const double seconds = own_motion ? options.seconds : path->duration();
@@ -448,11 +488,8 @@ Status run(Options options) {
     if (!plane) return plane.error();
     mirror = *plane;
   }
-  device::ArmSettings arm;
-  if (options.arm == "rigid") arm.stiffness = INFINITY;
-  if (options.arm == "light") arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
   auto made = workshop::begin_by_itself(std::move(opened->bone), std::move(*path), settings,
-                                        progress(), arm);
+                                        progress(), arm_of(options.arm));
   if (!made) return made.error();
   sim::Session& session = **made;
   if (mirror.on()) session.command(tick::command_for(mirror));
@@ -474,6 +511,8 @@ Status run(Options options) {
   }
   session.run(seconds, progress());
   edit::PieceStore store;
+  // before a piece is put into the plane
+  const std::optional<CutLeft> left = left_of(cut, session.bone());
   Status put = interrupted() ? fine() : move_pieces(orders, session, store);
   if (put.ok() && carry && !interrupted()) put = carry_piece(*carry, session, store);
   const Status recorded = options.record.empty() ? fine() : recording.finish(session);
@@ -481,7 +520,7 @@ Status run(Options options) {
     Status drawn = draw(options, place, session);
     if (!drawn) return drawn;
   }
-  print(options, session, recording, {doubts, pieces_of(options, store, session.bone())});
+  print(options, session, recording, {doubts, pieces_of(options, store, session.bone()), left});
   if (!put) return put;
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");

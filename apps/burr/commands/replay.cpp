@@ -80,11 +80,11 @@ ViewOptions view_of(const Options& options, const record::Player& player) {
 
 // The tool of a tick. That of a mouse, which has no orientation, is drawn as the window draws it.
 void put_drawn_tool(render::Scene& scene, const record::Step& step, const record::Player& player,
-                    bool contact, render::HeldTool& held, double seconds) {
+                    bool contact, render::HeldTool& held, workshop::SecondTool& second,
+                    double seconds) {
   const tick::TickRow& row = step.row;
   workshop::put_tool(scene, row, contact);
-  workshop::put_second_tool(scene, step.second ? &*step.second : nullptr,
-                            record::tool_of(player.info().second));
+  second.put(scene, step.second ? &*step.second : nullptr, record::tool_of(player.info().second));
   if (row.tool.number >= 0) {  // its direction matters to what it cuts: drawn as it was held
     workshop::ToolLooks(player.info().tools).put(scene, row.tool.number);
     return;
@@ -116,7 +116,8 @@ Status draw(const Options& options, record::Player& player) {
   if (const record::View* seen = workshop::view_at(views, tick->tick))
     look_as_seen(scene, workshop::camera_of(*seen), view);
   render::HeldTool held;
-  put_drawn_tool(scene, *step, player, false, held, 0);
+  workshop::SecondTool second;
+  put_drawn_tool(scene, *step, player, false, held, second, 0);
   if (options.effects) {
     render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
     workshop::Traces(player).until(t).show(wound);
@@ -175,6 +176,7 @@ Status film(const Options& options, record::Player& player) {
   const std::vector<record::View> views =
       as_seen(options) ? player.views() : std::vector<record::View>();
   render::HeldTool held;
+  workshop::SecondTool second;
   auto reel = FilmFile::open(options.film, options.size, options.fps);
   if (!reel) return reel.error();
   render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
@@ -197,7 +199,7 @@ Status film(const Options& options, record::Player& player) {
     if (!step) return step.error();
     if (const record::View* seen = workshop::view_at(views, step->row.tick))
       look_as_seen(scene, workshop::camera_of(*seen), view);
-    put_drawn_tool(scene, *step, player, true, held, 1 / options.fps);
+    put_drawn_tool(scene, *step, player, true, held, second, 1 / options.fps);
     Status written = reel->frame(scene);
     if (!written) return written;
   }

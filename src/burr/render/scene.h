@@ -100,6 +100,12 @@ struct Burr {
   std::shared_ptr<const ToolLook> other;  // no round burr; sent again when the pointer changes
 };
 
+// A tool of any shape in the other hand; it casts no shadow of its own.
+struct OtherTool {
+  math::Pose world_from_tool;
+  std::shared_ptr<const ToolLook> look;  // sent again when the pointer changes
+};
+
 struct Marker {
   math::Vec3 p = math::Vec3::Zero();
   double radius = 0.4e-3;  // [m]
@@ -147,6 +153,7 @@ struct Scene {
   std::vector<Material> materials;     // index: TissueId; those beyond its end are plain
   std::vector<SoftStructure> soft;     // see render/soft_scene.h
   Burr burr;
+  std::optional<OtherTool> beside;  // of the other hand
   std::vector<Marker> markers;
   std::vector<Rod> rods;
   std::optional<Mirrored> mirrored;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 namespace burr::render {
@@ -50,11 +51,11 @@ Wound::Wound(double voxel, std::vector<float> bleeding)
 void Wound::forget() {
   cells_.clear();
   low_ = high_ = Ijk::Zero();
-  last_.reset();
+  first_tool_ = other_tool_ = {};
   cut_at_ = -1e9;
   before_.clear();
   up_.reset();
-  airborne_ = flowed_ = 0;
+  flowed_ = 0;
   bleeds_ = pasty_ = false;
   stained_at_ = -1e9;
 }
@@ -111,7 +112,7 @@ void Wound::dull(double seconds) {
   high_ = high;
 }
 
-// Calls change(cell, distance of its middle from the line a-b).
+// Calls change(cell, distance of its middle from the line a-b), or with its middle as well.
 template <class Change>
 void Wound::each_near(const Vec3& a, const Vec3& b, double reach, const Change& change) {
   const Vec3 lo = a.cwiseMin(b).array() - reach, hi = a.cwiseMax(b).array() + reach;
@@ -123,7 +124,12 @@ void Wound::each_near(const Vec3& a, const Vec3& b, double reach, const Change& 
       for (int i = low.x(); i < high.x(); ++i) {
         const Vec3 p = cell_ * ((Ijk(i, j, k) + first_).cast<double>() + Vec3::Constant(0.5));
         const double d = distance(p, a, b);
-        if (d <= reach) change(cells_[index(i, j, k)], d);
+        if (d > reach) continue;
+        Cell& cell = cells_[index(i, j, k)];
+        if constexpr (std::is_invocable_v<Change, Cell&, double, const Vec3&>)
+          change(cell, d, p);
+        else
+          change(cell, d);
       }
   const bool none = (low_.array() >= high_.array()).any();
   low_ = none ? low : low_.cwiseMin(low).eval();
@@ -132,34 +138,62 @@ void Wound::each_near(const Vec3& a, const Vec3& b, double reach, const Change& 
 
 void Wound::see(const Tick& tick) {
   if (!tick.tip.allFinite() || !std::isfinite(tick.t)) return;
-  if (last_ && tick.t < last_->t) forget();
-  const double seconds = last_ ? tick.t - last_->t : 0;
-  const double removed = last_ ? tick.removed - last_->removed : 0;
-  const bool added = last_ && tick.added > last_->added;
+  std::optional<Tick>& last = first_tool_.last;
+  if (last && tick.t < last->t) forget();
+  const double seconds = last ? tick.t - last->t : 0;
+  const double removed = last ? tick.removed - last->removed : 0;
+  const double own = own_cut(tick);
+  const bool added = last && tick.added > last->added;
   if (!cells_.empty()) dull(seconds);
-  if (last_ && tick.undone > last_->undone) undo(tick);
+  if (last && tick.undone > last->undone) undo(tick);
   if (removed > 0) {
     if (tick.t - cut_at_ > kStrokePause) begin_stroke();
     cut_at_ = tick.t;
   }
-  if (removed > 0 || added || tick.irrigated) {
+  if (own > 0 || added || tick.irrigated) {
     centre(tick.tip);
-    const Vec3 from = last_ && seconds <= kKnown ? last_->tip : tick.tip;
-    if (removed > 0) cut(tick, from, removed);
+    const Vec3 from = last && seconds <= kKnown ? last->tip : tick.tip;
+    if (own > 0) cut(first_tool_, tick, from, own);
     if (added) cover(tick, from);
     if (tick.irrigated) soak(tick, from, seconds);
   }
-  if (airborne_ > 0) settle(tick, seconds);
+  settle(first_tool_, tick, seconds);
   if (bleeds_ || pasty_) bleed(seconds);
-  last_ = tick;
+  last = tick;
+}
+
+// What the first tool alone removed since the tick before. The row of the other hand may be some ticks
+// newer in a window, and the two sums round differently: so only what is above the most so far.
+double Wound::own_cut(const Tick& tick) {
+  constexpr double kRounding = 1e-15;  // [m^3]
+  const double total = tick.removed - tick.others;
+  if (!first_tool_.last) own_ = total;
+  const double more = total - own_;
+  if (more <= (tick.others > 0 ? kRounding : 0)) return 0;
+  own_ = total;
+  return more;
+}
+
+// The grid goes along with the first tool; what lies outside of it keeps its usual look.
+void Wound::see_beside(const Tick& tick) {
+  if (!tick.tip.allFinite() || !std::isfinite(tick.t)) return;
+  std::optional<Tick>& last = other_tool_.last;
+  const double seconds = last ? tick.t - last->t : 0;
+  const double removed = last ? tick.removed - last->removed : 0;
+  if (removed > 0) {
+    if (cells_.empty()) centre(tick.tip);
+    cut(other_tool_, tick, seconds <= kKnown ? last->tip : tick.tip, removed);
+  }
+  settle(other_tool_, tick, seconds);
+  last = tick;
 }
 
 // Keeps what there is, as it was at the tick before.
 void Wound::begin_stroke() {
   if (before_.size() == kStrokes) before_.erase(before_.begin());
   Before& now = before_.emplace_back();
-  now.net = last_->removed - last_->undone;
-  now.t = last_->t;
+  now.net = first_tool_.last->removed - first_tool_.last->undone;
+  now.t = first_tool_.last->t;
   now.low = first_ + low_;
   now.high = first_ + high_.cwiseMax(low_);
   if (cells_.empty()) return;
@@ -173,7 +207,7 @@ void Wound::undo(const Tick& tick) {
   constexpr double kSame = 1e-15;  // rounding of sums [m^3]
   const double net = tick.removed - tick.undone;
   while (!before_.empty() && before_.back().net > net + kSame) before_.pop_back();
-  airborne_ = 0;
+  first_tool_.airborne = other_tool_.airborne = 0;
   cut_at_ = -1e9;  // what is cut next is another stroke
   for (Cell& cell : cells_) {
     Cell bare;
@@ -204,13 +238,13 @@ void Wound::undo(const Tick& tick) {
   dull(tick.t - was.t);
 }
 
-void Wound::cut(const Tick& tick, const Vec3& from, double removed) {
+void Wound::cut(Source& source, const Tick& tick, const Vec3& from, double removed) {
   if (!up_) up_ = tick.up.norm() > 0 ? tick.up.normalized().eval() : Vec3::UnitZ();
-  airborne_ += removed / kSolidShare;
+  source.airborne += tick.dust * removed / kSolidShare;
   const Vec3 step = tick.tip - from;
   const Vec3 way = step.norm() > 1e-9 ? step.normalized().eval() : Vec3::Zero().eval();
-  const auto begins = static_cast<float>(along_ - way.dot(from));
-  along_ = std::fmod(along_ + step.norm(), kLongest);
+  const auto begins = static_cast<float>(source.along - way.dot(from));
+  source.along = std::fmod(source.along + step.norm(), kLongest);
   each_near(from, tick.tip, tick.radius + (kFar - 1) * cell_, [&](Cell& cell, double d) {
     cell.off = std::min(cell.off, static_cast<float>((d - tick.radius) / cell_));
     // a cell and a bit more, so that everything between cell centres is fresh
@@ -257,8 +291,10 @@ void Wound::suck(const Vec3& mouth, double radius, double seconds) {
   if (cells_.empty() || !mouth.allFinite() || !(seconds > 0)) return;
   const float left = left_after(seconds, kSuctionTime);
   // dust that still flies about the tool is drawn in by a mouth beside it, and never settles
-  if (last_ && (mouth - last_->tip).norm() < radius + last_->radius + kSuctionReach)
-    airborne_ *= static_cast<double>(left);
+  for (Source* source : {&first_tool_, &other_tool_})
+    if (source->last &&
+        (mouth - source->last->tip).norm() < radius + source->last->radius + kSuctionReach)
+      source->airborne *= static_cast<double>(left);
   each_near(mouth, mouth, radius + kSuctionReach, [&](Cell& cell, double d) {
     const auto most =
         static_cast<float>(std::min(1.0, (radius + kSuctionReach - d) / kSuctionReach));
@@ -270,17 +306,31 @@ void Wound::suck(const Vec3& mouth, double radius, double seconds) {
   });
 }
 
-// Dust is thickest under the tool and zero at the edge: a cone with the volume that settles.
-void Wound::settle(const Tick& tick, double seconds) {
-  const double down = airborne_ * (1 - std::exp(-seconds / kSettleTime));
-  airborne_ = airborne_ - down < 1e-15 ? 0 : airborne_ - down;
+// Dust is thickest under the tool and zero at the edge: a cone with the volume that settles; of a saw,
+// a cone on an ellipse along its stroke.
+void Wound::settle(Source& source, const Tick& tick, double seconds) {
+  double& airborne = source.airborne;
+  if (airborne <= 0) return;
+  const double down = airborne * (1 - std::exp(-seconds / kSettleTime));
+  airborne = airborne - down < 1e-15 ? 0 : airborne - down;
   if (cells_.empty() || down <= 0) return;
-  const double stays = tick.irrigated ? kPasteShare * down : down;  // water carries the rest away
-  const double reach = tick.radius + kDustReach,
-               thickest = 3 * stays / (std::numbers::pi * reach * reach);
-  each_near(tick.tip, tick.tip, reach, [&](Cell& cell, double d) {
+  // water carries the rest away
+  const double stays = tick.irrigated ? kPasteShare * down : down;
+  const bool saws = tick.stroke != Vec3::Zero();
+  const double reach = tick.radius + kDustReach;
+  const double along = saws ? kAlong * reach : reach, across = saws ? kAcross * reach : reach;
+  const double thickest = 3 * stays / (std::numbers::pi * along * across);
+  const auto share = [&](const Vec3& p, double d) {  // 1 at the edge
+    if (!saws) return d / reach;
+    const Vec3 w = p - tick.tip;
+    const double on = w.dot(tick.stroke);
+    return std::hypot(on / along, (w - on * tick.stroke).norm() / across);
+  };
+  each_near(tick.tip, tick.tip, along, [&](Cell& cell, double d, const Vec3& p) {
     if (cell.off < 1.2F && d < tick.radius + 1.2 * cell_) return;  // the burr sweeps where it is
-    const double thick = thickest * (1 - d / reach);
+    const double at = share(p, d);
+    if (at >= 1) return;
+    const double thick = thickest * (1 - at);
     const auto hidden = static_cast<float>(1 - std::exp(-thick / kCoverThickness));
     cell.look.dust += (1 - cell.look.dust) * hidden;
   });

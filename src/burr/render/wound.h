@@ -10,8 +10,10 @@
 //   fresh   bone that was just cut; fades within kDullTime
 //   wet     bone that coolant reaches; dries within kDryTime
 //   dust   bone that is cut dry goes into the air as dust and settles within kDustReach of the tool
-//           on faces that point up; the burr sweeps its own cut clean. Coolant makes a paste of it,
-//           which lies on steeper faces too and runs down; coolant slowly rinses it away
+//           on faces that point up; the burr sweeps its own cut clean. A tool that turns throws it to
+//           all sides, a saw along its stroke (kAlong, kAcross); a chisel or curette makes chips, which
+//           fall away, and no dust. Coolant makes a paste of it, which lies on steeper faces too and
+//           runs down; coolant slowly rinses it away
 //   ridges  fine parallel ridges where a fluted burr cut, across its way; a diamond burr polishes them
 //           away. They stay
 //   blood   comes where a bleeding tissue was opened, runs from cell to cell along the surface,
@@ -47,6 +49,7 @@ class Wound {
   static constexpr double kSettleTime = 0.5;   // until 1/e of it is still in the air [s]
   static constexpr double kDustReach = 6e-3;   // reach of the dust from the head's surface
                                                // [m]
+  static constexpr double kAlong = 1.8, kAcross = 0.45;  // of that reach: of a saw
   // thickness that hides all but 1/e of the bone [m]
   static constexpr double kCoverThickness = 0.05e-3;
   static constexpr double kWashTime = 0.3;    // until 1/e of blood is left under coolant [s]
@@ -73,10 +76,17 @@ class Wound {
     double radius = 0;                    // of the head
     double removed = 0, added = 0;        // since the start [m^3]
     bool irrigated = false;
-    double undone = 0;     // of `removed`, brought back since the start [m^3]
-    bool diamond = false;  // the burr has grit in place of flutes
+    double undone = 0;                       // of `removed`, brought back since the start [m^3]
+    bool diamond = false;                    // the burr has grit in place of flutes
+    double others = 0;                       // of `removed`, by the tool of the other hand; may be
+                                             // that of a later tick, of an earlier one not  [m^3]
+    double dust = 1;                         // share of what it removes that flies as dust
+    math::Vec3 stroke = math::Vec3::Zero();  // of a blade, unit; 0: it turns
   };
   void see(const Tick& tick);
+  // The tool of the other hand at that time, after see(): what it cuts is fresh, and dust lies about
+  // it. removed: by it alone; up, added, irrigated, undone, others are not used.
+  void see_beside(const Tick& tick);
   // A suction tube's mouth was at this place for so long: water, dust and blood near it are
   // removed, and dust in the air if the tool is near.
   void suck(const math::Vec3& mouth, double radius, double seconds);
@@ -89,7 +99,8 @@ class Wound {
     float fresh = 0, wet = 0, dust = 0, blood = 0;
   };
   [[nodiscard]] State at(const math::Vec3& p) const;
-  [[nodiscard]] double in_the_air() const { return airborne_; }  // dust that has not settled [m^3]
+  // dust that has not settled [m^3]
+  [[nodiscard]] double in_the_air() const { return first_tool_.airborne + other_tool_.airborne; }
 
   // Gives a patch its present look; opened tissue that it shows bleeds from now on.
   void stain(Scene& scene, int patch);
@@ -124,14 +135,22 @@ class Wound {
     std::vector<Cell> cells;  // of that box
   };
 
+  // A tool, and what it throws.
+  struct Source {
+    std::optional<Tick> last;
+    double along = 0;     // length of its path while it cut [m]
+    double airborne = 0;  // [m^3]
+  };
+
   void centre(const math::Vec3& p);
+  [[nodiscard]] double own_cut(const Tick& tick);
   void begin_stroke();
   void undo(const Tick& tick);
   void dull(double seconds);
-  void cut(const Tick& tick, const math::Vec3& from, double removed);
+  void cut(Source& source, const Tick& tick, const math::Vec3& from, double removed);
   void cover(const Tick& tick, const math::Vec3& from);
   void soak(const Tick& tick, const math::Vec3& from, double seconds);
-  void settle(const Tick& tick, double seconds);
+  void settle(Source& source, const Tick& tick, double seconds);
   void bleed(double seconds);
   void flow(double seconds);
   void run_paste(double seconds);
@@ -149,12 +168,11 @@ class Wound {
   math::Ijk first_ = math::Ijk::Zero();  // cell of the world that is cells_[0]
   math::Ijk low_ = math::Ijk::Zero(), high_ = math::Ijk::Zero();  // only [low, high) may hold
                                                                   // something
-  std::optional<Tick> last_;
-  double along_ = 0;            // length of the burr's path while it cut [m]
+  Source first_tool_, other_tool_;
+  double own_ = 0;              // the most that the first tool removed so far [m^3]
   double cut_at_ = -1e9;        // when something was removed last [s]
   std::vector<Before> before_;  // strokes, the oldest first
   std::optional<math::Vec3> up_;
-  double airborne_ = 0;               // [m^3]
   bool bleeds_ = false;               // some cell is open
   bool pasty_ = false;                // some cell may hold a paste
   double flowed_ = 0;                 // time for which blood and paste must still be moved [s]

@@ -33,12 +33,13 @@ struct Section {
   double floor = std::numeric_limits<double>::infinity(), top = -floor;
 };
 
-Section section_of(const volume::Bone& bone, const CutPlane& plane, const Vec3& along) {
+// use(from plane.at, in voxels), for each voxel inside the bone at most `within` voxels off the plane.
+template <class Use>
+void each_voxel_near(const volume::Bone& bone, const CutPlane& plane, double within,
+                     const Use& use) {
   const volume::Grid& grid = bone.grid();
   const Vec3 at = grid.grid_from_world(plane.at);
-  const math::Quat to_grid = grid.frame.q.conjugate();
-  const Vec3 normal = to_grid * plane.normal, side = to_grid * along, out = to_grid * plane.out;
-  Section found;
+  const Vec3 normal = grid.frame.q.conjugate() * plane.normal;
   for (volume::BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {
     const volume::Field* const field = bone.brick_field(brick);
     if (field == nullptr) continue;
@@ -46,13 +47,22 @@ Section section_of(const volume::Bone& bone, const CutPlane& plane, const Vec3& 
     for (int v = 0; v < volume::kBrickVoxels; ++v) {
       if (field[v] < volume::kIso) continue;
       const Vec3 p = (first + math::Ijk(v & 7, v >> 3 & 7, v >> 6)).cast<double>() - at;
-      if (std::abs(p.dot(normal)) > 1) continue;
-      found.low = std::min(found.low, p.dot(side) * grid.voxel);
-      found.high = std::max(found.high, p.dot(side) * grid.voxel);
-      found.floor = std::min(found.floor, p.dot(out) * grid.voxel);
-      found.top = std::max(found.top, p.dot(out) * grid.voxel);
+      if (std::abs(p.dot(normal)) <= within) use(p);
     }
   }
+}
+
+Section section_of(const volume::Bone& bone, const CutPlane& plane, const Vec3& along) {
+  const volume::Grid& grid = bone.grid();
+  const math::Quat to_grid = grid.frame.q.conjugate();
+  const Vec3 side = to_grid * along, out = to_grid * plane.out;
+  Section found;
+  each_voxel_near(bone, plane, 1, [&](const Vec3& p) {
+    found.low = std::min(found.low, p.dot(side) * grid.voxel);
+    found.high = std::max(found.high, p.dot(side) * grid.voxel);
+    found.floor = std::min(found.floor, p.dot(out) * grid.voxel);
+    found.top = std::max(found.top, p.dot(out) * grid.voxel);
+  });
   return found;
 }
 
@@ -189,6 +199,21 @@ Result<HandPath> cut_along(const volume::Bone& bone, const CutPlane& plane, cons
   }
   go(kWay, middle, top + 2 * kAbove, 0);
   return path;
+}
+
+double bone_in_plane(const volume::Bone& bone, const CutPlane& plane) {
+  const Vec3 normal = bone.grid().frame.q.conjugate() * plane.normal;
+  double voxels = 0;  // of a sheet one voxel thick: its upper side belongs to the next one
+  each_voxel_near(bone, plane, 0.5, [&](const Vec3& p) {
+    if (p.dot(normal) < 0.5) ++voxels;
+  });
+  return voxels * bone.grid().voxel * bone.grid().voxel;
+}
+
+double seconds_needed(double seconds, double left) {
+  constexpr double kMore = 1.2, kMinute = 60;
+  const double cut = std::max(1 - left, seconds * kMore / kMost);
+  return std::min(kMost, kMinute * std::ceil(kMore * seconds / cut / kMinute));
 }
 
 }  // namespace burr::surgeon

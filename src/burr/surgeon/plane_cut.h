@@ -47,4 +47,11 @@ struct Blade {
 [[nodiscard]] Result<device::HandPath> cut_along(const volume::Bone& bone, const CutPlane& plane,
                                                  const Blade& blade, double seconds);
 
+// How much bone the plane meets: before and after a cut it says how much of it is left.  [m^2]
+[[nodiscard]] double bone_in_plane(const volume::Bone& bone, const CutPlane& plane);
+
+// How long the same cut should take, if in `seconds` it left `left` of the bone in the plane, 0 to 1:
+// what is left takes as long as what was cut, and a fifth more, in whole minutes.  [s]
+[[nodiscard]] double seconds_needed(double seconds, double left);
+
 }  // namespace burr::surgeon

@@ -40,6 +40,7 @@ class LiveSurface {
   void update(const render::Camera* eye = nullptr);
   // What the tool does to the look of the bone (render/wound.h). Call it before update().
   void see(const render::Wound::Tick& tick) { wound_.see(tick); }
+  void see_beside(const render::Wound::Tick& tick) { wound_.see_beside(tick); }
   void suck(const math::Vec3& mouth, double radius, double seconds) {
     wound_.suck(mouth, radius, seconds);
   }

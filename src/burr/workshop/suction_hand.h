@@ -35,6 +35,8 @@ class SuctionHand {
   // nullptr: a suction tube.
   [[nodiscard]] const tool::Tool* tool() const;
   void set_axes(const math::Quat& world_from_view) { hand_.set_axes(world_from_view); }
+  // It carries a piece of bone by its button: device/mapping.h.
+  void carry(bool carries) { hand_.carry(carries); }
   // Called by the emergency stop.
   void lift(bool lifted) { hand_.lift(lifted); }
   [[nodiscard]] const device::Device& hand() const { return hand_; }

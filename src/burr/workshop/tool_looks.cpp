@@ -4,13 +4,15 @@
 
 namespace burr::workshop {
 
+std::shared_ptr<const render::ToolLook> look_of(const tool::Tool& tool) {
+  auto look = std::make_shared<render::ToolLook>();
+  look->cuts = render::mesh_of(tool, tool::Role::cuts);
+  look->rubs = render::mesh_of(tool, tool::Role::rubs);
+  return look;
+}
+
 ToolLooks::ToolLooks(const std::vector<tool::ShapedTool>& tools) {
-  for (const tool::ShapedTool& tool : tools) {
-    auto look = std::make_shared<render::ToolLook>();
-    look->cuts = render::mesh_of(tool.tool, tool::Role::cuts);
-    look->rubs = render::mesh_of(tool.tool, tool::Role::rubs);
-    looks_.push_back(std::move(look));
-  }
+  for (const tool::ShapedTool& tool : tools) looks_.push_back(look_of(tool.tool));
 }
 
 void ToolLooks::put(render::Scene& scene, int number) const {

@@ -12,6 +12,8 @@
 
 namespace burr::workshop {
 
+[[nodiscard]] std::shared_ptr<const render::ToolLook> look_of(const tool::Tool& tool);
+
 class ToolLooks {
  public:
   ToolLooks() = default;

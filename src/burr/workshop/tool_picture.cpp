@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <utility>
 
-#include "burr/render/tool_mesh.h"
+#include "burr/workshop/tool_looks.h"
 
 namespace burr::workshop {
 namespace {
@@ -29,10 +28,7 @@ render::Scene empty(double low, double high) {
 }
 
 render::Scene with_look(render::Scene scene, const tool::Tool& tool) {
-  auto look = std::make_shared<render::ToolLook>();
-  look->cuts = render::mesh_of(tool, tool::Role::cuts);
-  look->rubs = render::mesh_of(tool, tool::Role::rubs);
-  scene.burr.other = std::move(look);
+  scene.burr.other = look_of(tool);
   return scene;
 }
 

@@ -49,7 +49,13 @@ void Traces::collect(double t, std::uint64_t every, Changes& changes) {
     ahead_ = time_of(step_.row) > t;
     if (ahead_) return;
     if (step_.row.tick % every != 0) continue;
-    changes.ticks.push_back(wound_tick(step_.row, player_.info().rate_hz));
+    const record::SessionInfo& info = player_.info();
+    const bool cuts = step_.second && info.second && !info.second->tools.empty();
+    changes.ticks.push_back(
+        wound_tick(step_.row, info.rate_hz, info.tools, cuts ? &*step_.second : nullptr));
+    if (cuts)
+      changes.beside.push_back(
+          {changes.ticks.size(), wound_tick(*step_.second, info.rate_hz, info.second->tools)});
     if (step_.second && sucks(*step_.second))
       changes.sucked.push_back({changes.ticks.size(), step_.second->contact.proxy,
                                 step_.second->tool.radius,
@@ -59,9 +65,11 @@ void Traces::collect(double t, std::uint64_t every, Changes& changes) {
 
 void Traces::Changes::show(render::Wound& wound) const {
   if (anew) wound.forget();
-  std::size_t next = 0;
+  std::size_t next = 0, cuts = 0;
   for (std::size_t n = 0; n < ticks.size(); ++n) {
     wound.see(ticks[n]);
+    for (; cuts < beside.size() && beside[cuts].after == n + 1; ++cuts)
+      wound.see_beside(beside[cuts].tick);
     for (; next < sucked.size() && sucked[next].after == n + 1; ++next)
       wound.suck(sucked[next].mouth, sucked[next].radius, sucked[next].seconds);
   }
@@ -70,6 +78,10 @@ void Traces::Changes::show(render::Wound& wound) const {
 void Traces::Changes::append(const Changes& later) {
   const std::size_t before = ticks.size();
   ticks.insert(ticks.end(), later.ticks.begin(), later.ticks.end());
+  for (Beside one : later.beside) {
+    one.after += before;
+    beside.push_back(std::move(one));
+  }
   for (Suction one : later.sucked) {
     one.after += before;
     sucked.push_back(one);

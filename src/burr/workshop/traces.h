@@ -29,6 +29,11 @@ class Traces {
     bool anew = false;  // forget what was shown before
     std::vector<render::Wound::Tick> ticks;
     std::vector<Suction> sucked;  // in order
+    struct Beside {
+      std::size_t after = 0;  // so many of the ticks
+      render::Wound::Tick tick;
+    };
+    std::vector<Beside> beside;  // a tool that cuts in the other hand; in order
     void append(const Changes& later);
     void show(render::Wound& wound) const;
   };

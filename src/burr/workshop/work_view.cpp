@@ -18,16 +18,46 @@ render::Scene scene_of_work(const volume::Bone& bone, double burr_radius, const 
   return scene;
 }
 
-render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz) {
-  return {static_cast<double>(row.tick) / rate_hz,
-          row.contact.proxy,
-          row.hand.world_from_tool.q * math::Vec3::UnitZ(),
-          row.tool.radius,
-          row.ledger.removed,
-          row.ledger.added,
-          row.tool.irrigated,
-          row.ledger.undone,
-          row.tool.kind == tool::BurrKind::diamond};
+namespace {
+
+// What a tool throws: one that turns dust to all sides, a blade dust along its stroke, an edge that is
+// pushed or struck chips, and no dust.
+void throw_dust(const tool::Cutter& cutter, const math::Quat& world_from_tool,
+                render::Wound::Tick& tick) {
+  switch (cutter.drive) {
+    case tool::Drive::turning:
+      return;
+    case tool::Drive::oscillating:
+    case tool::Drive::reciprocating:
+      tick.stroke = world_from_tool * cutter.way;
+      return;
+    case tool::Drive::pushed:
+    case tool::Drive::struck:
+      tick.dust = 0;
+      return;
+  }
+}
+
+}  // namespace
+
+render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz,
+                               std::span<const tool::ShapedTool> tools,
+                               const tick::TickRow* second) {
+  render::Wound::Tick tick;
+  tick.t = static_cast<double>(row.tick) / rate_hz;
+  tick.tip = row.contact.proxy;
+  tick.up = row.hand.world_from_tool.q * math::Vec3::UnitZ();
+  tick.radius = row.tool.radius;
+  tick.removed = row.ledger.removed;
+  tick.added = row.ledger.added;
+  tick.irrigated = row.tool.irrigated;
+  tick.undone = row.ledger.undone;
+  tick.diamond = row.tool.kind == tool::BurrKind::diamond;
+  if (second != nullptr) tick.others = second->ledger.removed;
+  const auto number = static_cast<std::size_t>(row.tool.number);
+  if (row.tool.number >= 0 && number < tools.size())
+    throw_dust(tools[number].cutter, pose_of_tool(row).q, tick);
+  return tick;
 }
 
 math::Pose pose_of_tool(const tick::TickRow& row) {

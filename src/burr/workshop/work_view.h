@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "burr/base/result.h"
 #include "burr/render/scene.h"
 #include "burr/render/wound.h"
 #include "burr/tick/rows.h"
+#include "burr/tool/shaped_tool.h"
 #include "burr/volume/bone.h"
 
 namespace burr::workshop {
@@ -17,8 +19,11 @@ namespace burr::workshop {
 [[nodiscard]] render::Scene scene_of_work(const volume::Bone& bone, double burr_radius,
                                           const math::Vec3& at, const math::Vec3& outward);
 
-// The part of a row that changes the look of the bone.
-[[nodiscard]] render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz);
+// The part of a row that changes the look of the bone. tools: of the session. second: of the other hand,
+// where it holds a tool that cuts; its row's own tool is number 0 of its list.
+[[nodiscard]] render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz,
+                                             std::span<const tool::ShapedTool> tools,
+                                             const tick::TickRow* second = nullptr);
 
 // Where the tool of this tick is, and how contact turned it.
 [[nodiscard]] math::Pose pose_of_tool(const tick::TickRow& row);

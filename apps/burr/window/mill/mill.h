@@ -213,6 +213,7 @@ class Mill {
   void draw_rack_panel();
   void look_at_pieces();
   void carry_piece();
+  void see_cuts(workshop::LiveSurface& live);
   [[nodiscard]] bool other_hand_carries() const;
   void draw_pieces_panel();
   bool piece_key(const SDL_Keysym& pressed);

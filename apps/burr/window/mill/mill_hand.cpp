@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "burr/render/pick.h"
+#include "burr/workshop/work_view.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/mill.h"
 #include "window/shell/words.h"
@@ -239,6 +240,17 @@ void Mill::toggle_menu(Menu menu) {
     menu_.reset();
   else
     menu_ = menu;
+}
+
+// Fresh bone, dust and water of both hands' tools.
+void Mill::see_cuts(workshop::LiveSurface& live) {
+  const tick::ServoSettings& servo = session_.settings().servo;
+  const bool cuts = hands_.suction != nullptr && hands_.suction->tool() != nullptr;
+  const tick::TickRow* second = cuts ? &hands_.suction->now() : nullptr;
+  live.see(workshop::wound_tick(row_, servo.rate_hz, servo.tools, second));
+  if (!cuts) return;
+  const tool::ShapedTool& tool = *session_.second_hand()->settings().tool;
+  live.see_beside(workshop::wound_tick(*second, servo.rate_hz, {&tool, 1}));
 }
 
 // The tube beside the burr. It takes away water, dust and blood from the picture, and changes no

@@ -43,6 +43,9 @@ void Mill::carry_piece() {
     static_cast<void>(drill_.set_mode(*std::exchange(mode_before_, {})));
     session_.command({tick::CommandKind::spindle_speed, drill_.full_speed()});
   }
+  // from when it is taken, so before the hand can grab it
+  if (hands_.real != nullptr) hands_.real->carry(has_piece());
+  if (other_hand_carries()) hands_.suction->carry(has_piece());
   if (!has_piece()) return;
   PieceMode::Carrier by;
   if (rests) by = carrier(row_, hands_.real->spec(), 0);

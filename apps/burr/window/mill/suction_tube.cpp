@@ -16,7 +16,7 @@ void SuctionTube::lead(workshop::SuctionHand* hand, render::Scene& scene,
       std::min(0.1, std::chrono::duration<double>(now - std::exchange(sucked_, now)).count());
   if (turns) hand->set_axes(view_of_hand(scene.camera));
   const tick::TickRow& row = hand->now();
-  workshop::put_second_tool(scene, &row, hand->tool());
+  drawn_.put(scene, &row, hand->tool());
   if (clears && workshop::sucks(row)) live.suck(row.contact.proxy, row.tool.radius, seconds);
 }
 

@@ -8,6 +8,7 @@
 
 #include "burr/render/scene.h"
 #include "burr/workshop/live_surface.h"
+#include "burr/workshop/second_tool.h"
 #include "burr/workshop/suction_hand.h"
 
 namespace burr::app {
@@ -20,6 +21,7 @@ class SuctionTube {
             bool clears, bool turns);
 
  private:
+  workshop::SecondTool drawn_;
   std::chrono::steady_clock::time_point sucked_;  // time of the last call of lead()
 };
 

@@ -96,7 +96,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   if (!desk_.settings.effects)
     live.look_plain();
   else if (ticks_.begun())
-    live.see(workshop::wound_tick(row_, session_.settings().servo.rate_hz));
+    see_cuts(live);
   suck(live);
   tube_.lead(hands_.suction, scene_, live, desk_.settings.effects, !carries_piece());
   note(headset_.begin(live.governor(), scene_.camera));

@@ -68,8 +68,8 @@ void ReplayView::look(bool effects, bool playing, bool left_handed) {
     if (effects) live_.see(shown_.changes);
     if (shown_.trouble.empty()) {
       workshop::put_tool(scene(), shown_.row, true);
-      workshop::put_second_tool(scene(), shown_.second ? &*shown_.second : nullptr,
-                                record::tool_of(recorded_.player->info().second));
+      second_.put(scene(), shown_.second ? &*shown_.second : nullptr,
+                  record::tool_of(recorded_.player->info().second));
       const tool::Burr& burr = recorded_.settings.settings.servo.burr;
       scene().burr.shaft_radius = burr.shaft_radius;
       scene().burr.shaft_length = burr.shaft_length;

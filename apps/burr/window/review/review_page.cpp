@@ -110,6 +110,14 @@ void draw_left(const Ui& ui, const Report& report) {
     column.write(Letter::small, ink::kWarn, part.note);
     column.gap(2);
   }
+  if (!report.pieces.empty()) {
+    column.heading(word(Word::report_pieces));
+    for (const auto& [name, how] : report.pieces) {
+      column.write(Letter::body, ink::kText, name);
+      column.write(Letter::small, ink::kDim, how);
+    }
+    column.write(Letter::small, ink::kDim, word(Word::report_pieces_back));
+  }
   column.heading(word(Word::report_next));
   int n = 0;
   for (const ReportAdvice& one : report.next) {

@@ -211,6 +211,8 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   const math::Aabb ball = {{-1, -1, -1}, {1, 1, 1}};
 
   if (scene.burr.visible && scene.burr.world_from_tool.finite()) add_tool(scene.burr);
+  if (scene.beside && scene.beside->look && scene.beside->world_from_tool.finite())
+    add_other(beside_, scene.beside->world_from_tool, scene.beside->look);
   for (const Marker& marker : scene.markers) {
     if (!marker.p.allFinite()) continue;
     add(ball_, placed({marker.p, math::Quat::Identity()}, marker.radius, marker.radius),
@@ -254,21 +256,22 @@ std::vector<math::Aabb> boxes_around(const surface::Mesh& mesh) {
 
 }  // namespace
 
-void Shapes::add_other(const Burr& burr) {
-  if (other_ != burr.other) {
-    other_ = burr.other;
-    send_mesh(cuts_, other_->cuts);
-    send_mesh(rubs_, other_->rubs);
-    cuts_boxes_ = boxes_around(other_->cuts);
-    rubs_boxes_ = boxes_around(other_->rubs);
+void Shapes::add_other(Sent& sent, const math::Pose& at,
+                       const std::shared_ptr<const ToolLook>& look) {
+  if (sent.look != look) {
+    sent.look = look;
+    send_mesh(sent.cuts, look->cuts);
+    send_mesh(sent.rubs, look->rubs);
+    sent.cuts_boxes = boxes_around(look->cuts);
+    sent.rubs_boxes = boxes_around(look->rubs);
   }
-  const Eigen::Matrix4d at = placed(burr.world_from_tool, 1, 1);
-  if (!cuts_boxes_.empty()) add(cuts_, at, kSteel, true, false, cuts_boxes_);
-  if (!rubs_boxes_.empty()) add(rubs_, at, kSatin, true, false, rubs_boxes_);
+  const Eigen::Matrix4d there = placed(at, 1, 1);
+  if (!sent.cuts_boxes.empty()) add(sent.cuts, there, kSteel, true, false, sent.cuts_boxes);
+  if (!sent.rubs_boxes.empty()) add(sent.rubs, there, kSatin, true, false, sent.rubs_boxes);
 }
 
 void Shapes::add_tool(const Burr& burr) {
-  if (burr.other != nullptr) return add_other(burr);
+  if (burr.other != nullptr) return add_other(held_, burr.world_from_tool, burr.other);
   make_shaft(burr);
   math::Pose turned = burr.world_from_tool;
   turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));

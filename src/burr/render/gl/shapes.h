@@ -52,15 +52,19 @@ class Shapes {
            bool steel, bool on_top, const std::vector<math::Aabb>& boxes_shape);
 
   void add_tool(const Burr& burr);
-  void add_other(const Burr& burr);
+  // A tool that is no round burr, and what of it the graphics card has.
+  struct Sent {
+    Shape cuts, rubs;
+    std::shared_ptr<const ToolLook> look;
+    std::vector<math::Aabb> cuts_boxes, rubs_boxes;
+  };
+  void add_other(Sent& sent, const math::Pose& at, const std::shared_ptr<const ToolLook>& look);
   void add_rod(const Rod& rod);
   void add_mirrored(const Mirrored& mirrored, const Burr& burr);
 
   Shape ball_, head_, grains_, rod_, tip_, shaft_;
   Shape collet_, nose_, grip_, tail_;  // of the handpiece
-  Shape cuts_, rubs_;                  // of a tool that is no round burr
-  std::shared_ptr<const ToolLook> other_;
-  std::vector<math::Aabb> cuts_boxes_, rubs_boxes_;
+  Sent held_, beside_;                 // in the first hand, in the other
   bool made_ = false;
   double shaft_of_[2] = {0, 0};  // radius and shaft_radius of the present shaft
   std::vector<Piece> pieces_;
