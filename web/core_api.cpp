@@ -196,13 +196,11 @@ EMSCRIPTEN_KEEPALIVE void core_begin() {
   c.servo->set_recorder_rings(c.recorder->rings());
 }
 
-// Completes the recording: the file PageRecorder::kFile. 0: core_why() says why there is none.
+// Completes the recording: the file PageRecorder::kFile. 0: core_why() says why there is none; it is empty when the
+// recording was completed before.
 EMSCRIPTEN_KEEPALIVE int core_finish_recording() {
   Core& c = *core;
-  if (c.recorder == nullptr) {
-    if (c.why.empty()) c.why = "the recording is finished";
-    return 0;
-  }
+  if (c.recorder == nullptr) return 0;
   const Status done = c.recorder->finish([&c] {
     if (c.servo->bricks_to_write() == 0) return false;
     c.servo->flush_bricks();

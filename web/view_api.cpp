@@ -40,6 +40,7 @@ struct View {
   app::MouseHand::Aim hand;
   render::HeldTool held;
   tick::TickRow row;
+  double rate = web::kRate;             // of ticks [Hz]
   std::vector<volume::Tissue> tissues;  // of the next bone
   std::string why;                      // of the last call that failed
 };
@@ -61,7 +62,7 @@ surface::Patch patch_of(const surface::Vertex* vertices, int vertex_count,
 }
 
 // What was shown before goes; the camera stays.
-void show_bone(const volume::TissueTable& tissues, double voxel_mm) {
+void show_bone(const volume::TissueTable& tissues, double voxel_mm, double rate) {
   View& v = view();
   const render::Camera camera = v.aim ? v.scene.camera : first_camera();
   const double voxel = 1e-3 * voxel_mm;
@@ -73,6 +74,7 @@ void show_bone(const volume::TissueTable& tissues, double voxel_mm) {
   v.wound.emplace(voxel, render::bleeding_of(tissues));
   v.aim.emplace(voxel);
   v.row = {};
+  v.rate = rate;
 }
 
 }  // namespace
@@ -100,9 +102,10 @@ EMSCRIPTEN_KEEPALIVE const char* view_gpu() {
 
 // A bone with voxels of this size; what was shown before goes.
 EMSCRIPTEN_KEEPALIVE void view_bone(double voxel_mm) {
-  show_bone(web::phantom_of_page(1e-3 * voxel_mm).tissues, voxel_mm);
+  show_bone(web::phantom_of_page(1e-3 * voxel_mm).tissues, voxel_mm, web::kRate);
 }
 // The same for another bone: view_tissue() for each of its tissues (core_tissue()), then view_other_bone().
+// rate: of its ticks [Hz].
 EMSCRIPTEN_KEEPALIVE void view_tissue(const char* name, int kind, double red, double green,
                                       double blue, double bleeds) {
   volume::Tissue tissue;
@@ -112,10 +115,10 @@ EMSCRIPTEN_KEEPALIVE void view_tissue(const char* name, int kind, double red, do
   tissue.bleeds = bleeds;
   view().tissues.push_back(tissue);
 }
-EMSCRIPTEN_KEEPALIVE void view_other_bone(double voxel_mm) {
+EMSCRIPTEN_KEEPALIVE void view_other_bone(double voxel_mm, double rate) {
   volume::TissueTable table;
   table.tissues = std::exchange(view().tissues, {});
-  show_bone(table, voxel_mm);
+  show_bone(table, voxel_mm, rate);
 }
 // The whole bone, seen from the right.
 EMSCRIPTEN_KEEPALIVE void view_whole() {
@@ -157,15 +160,15 @@ EMSCRIPTEN_KEEPALIVE void view_row(const void* bytes) {
   View& v = view();
   std::memcpy(static_cast<void*>(&v.row), bytes, sizeof v.row);
   workshop::put_tool(v.scene, v.row, false);
-  v.wound->see(workshop::wound_tick(v.row, web::kRate, {}));
+  v.wound->see(workshop::wound_tick(v.row, v.rate, {}));
 }
 // What the page writes of the row: time [s], force [N], removed [mm^3], diameter of the burr [mm],
-// speed that is set [rpm], speed now [rpm], touching, flags, pressed [mm].
+// speed that is set [rpm], speed now [rpm], touching, flags.
 EMSCRIPTEN_KEEPALIVE const double* view_figures() {
   static double figures[8];
   const tick::TickRow& row = view().row;
   constexpr double kRpm = 60 / (2 * 3.14159265358979323846);
-  figures[0] = static_cast<double>(row.tick) / web::kRate;
+  figures[0] = static_cast<double>(row.tick) / view().rate;
   figures[1] = row.contact.force.norm();
   figures[2] = 1e9 * (row.ledger.removed - row.ledger.undone);
   figures[3] = 2e3 * row.tool.radius;
@@ -240,6 +243,18 @@ EMSCRIPTEN_KEEPALIVE int view_show(double now, double took, int left_handed) {
   const Status shown = v.renderer->show(v.scene);
   if (!shown) v.why = shown.error().text;
   return shown ? 1 : 0;
+}
+// Of the last picture: share that was drawn anew, patches sent, patches drawn, triangles drawn, step of the
+// governor.
+EMSCRIPTEN_KEEPALIVE const double* view_drawn() {
+  static double figures[5];
+  const render::Renderer::Figures last = view().renderer->figures();
+  figures[0] = last.redrawn;
+  figures[1] = last.patches_uploaded;
+  figures[2] = last.patches_drawn;
+  figures[3] = static_cast<double>(last.triangles_drawn);
+  figures[4] = view().governor->step();
+  return figures;
 }
 // 1: nothing is left out of the picture.
 EMSCRIPTEN_KEEPALIVE int view_refined() { return view().renderer->refined() ? 1 : 0; }

@@ -26,9 +26,9 @@ FLAGS = """--headless --no-sandbox --use-gl=angle --use-angle=swiftshader --enab
 
 
 class Site:
-    """A plain static server on 127.0.0.1, without any special headers."""
+    """A plain static server on 127.0.0.1, without any special headers but those that are given."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, headers=None):
         self.asked = []  # paths, in order
 
         class Handler(http.server.SimpleHTTPRequestHandler):
@@ -37,6 +37,11 @@ class Site:
 
             def log_message(handler, *_):
                 self.asked.append(handler.path)
+
+            def end_headers(handler):
+                for name, value in (headers or {}).items():
+                    handler.send_header(name, value)
+                super().end_headers()
 
         self.server = http.server.ThreadingHTTPServer(
             ("127.0.0.1", 0), functools.partial(Handler, directory=str(folder)))
@@ -109,8 +114,9 @@ class Chromium:
             raise RuntimeError(f"{method}: {answer['error']['message']}")
         return answer["result"]
 
-    def open(self, url):
-        return Page(self, url)
+    def open(self, url, first=None):
+        """first: a script that runs before those of the page."""
+        return Page(self, url, first)
 
     def keep_downloads(self, folder):
         self.send("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
@@ -129,7 +135,7 @@ class Chromium:
 
 
 class Page:
-    def __init__(self, browser, url):
+    def __init__(self, browser, url, first=None):
         self.browser = browser
         self.troubles = []  # what the console says as a warning or an error, and what was thrown
         self.requests = []  # (seconds since the start, address)
@@ -137,12 +143,15 @@ class Page:
         self.target = browser.send("Target.createTarget", {"url": "about:blank"})["targetId"]
         self.session = browser.send("Target.attachToTarget", {"targetId": self.target, "flatten": True})["sessionId"]
         self.sessions = {self.session}
+        self.workers = []  # their sessions
         self.begun = time.monotonic()
         browser.listeners.append(self._hear)
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.send(domain + ".enable")
-        # workers too
-        self.send("Target.setAutoAttach", {"autoAttach": True, "waitForDebuggerOnStart": False, "flatten": True})
+        # workers too, which wait until their requests are watched
+        self.send("Target.setAutoAttach", {"autoAttach": True, "waitForDebuggerOnStart": True, "flatten": True})
+        if first:
+            self.send("Page.addScriptToEvaluateOnNewDocument", {"source": first})
         self.send("Emulation.setDeviceMetricsOverride", {"width": browser.width, "height": browser.height,
                                                          "deviceScaleFactor": 1, "mobile": False})
         self.send("Page.navigate", {"url": url})
@@ -154,11 +163,13 @@ class Page:
         if method == "Target.attachedToTarget":
             session = params["sessionId"]
             self.sessions.add(session)
+            if params["targetInfo"]["type"] == "worker":
+                self.workers.append(session)
 
             def listen():  # not from the thread that reads
-                for domain in ("Runtime", "Network"):
+                for method in ("Runtime.enable", "Network.enable", "Runtime.runIfWaitingForDebugger"):
                     try:
-                        self.browser.send(domain + ".enable", session=session)
+                        self.browser.send(method, session=session)
                     except Exception:
                         pass
             threading.Thread(target=listen, daemon=True).start()
@@ -179,9 +190,10 @@ class Page:
     def close(self):
         self.browser.send("Target.closeTarget", {"targetId": self.target})
 
-    def run(self, script):
-        """The value of a JavaScript expression; a promise is waited for."""
-        answer = self.send("Runtime.evaluate", {"expression": script, "awaitPromise": True, "returnByValue": True})
+    def run(self, script, worker=None):
+        """The value of a JavaScript expression, in the page or in one of its workers; a promise is waited for."""
+        answer = self.browser.send("Runtime.evaluate", {"expression": script, "awaitPromise": True, "returnByValue": True},
+                                   worker or self.session)
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"].get("exception", {}).get("description", "?"))
         return answer["result"].get("value")

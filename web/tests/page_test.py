@@ -62,6 +62,11 @@ PARK = """(() => {
 bad = []
 
 
+def policy():
+    """The header that docs/browser.md names."""
+    return re.search(r"Content-Security-Policy: (.+)", (ROOT / "docs/browser.md").read_text())[1]
+
+
 def check(good, text):
     print(("good: " if good else "BAD:  ") + text)
     if not good:
@@ -135,12 +140,67 @@ def record(page, downloads):
     return file
 
 
+def finer(page):
+    """The same bone with finer voxels: the worker begins anew."""
+    page.run("document.getElementById('finer').click()")
+    page.wait("burr.voxel === 0.25 && burr.ready && burr.state.ticks > 100", WAIT)
+    page.run("document.getElementById('larger').click()")
+    page.wait("burr.figures.size === 5.5", WAIT)
+    check(True, "the finer bone is there, with ticks")
+
+
 def requests(page, site, loaded):
+    """Of the page and of its worker."""
     elsewhere = [url for _, url in page.requests
                  if not url.startswith((site.url, "data:", f"blob:{site.url}"))]
     check(not elsewhere, f"no request to anywhere else {elsewhere}")
+    check(any(url.endswith("/worker.js") for _, url in page.requests) and page.workers, "the worker was watched too")
     later = [url for _, url in page.requests[loaded:] if not url.startswith("blob:")]
     check(not later, f"no request after the page was loaded {later}")
+
+
+def without_webgl(browser, site):
+    """The sentence says so, and stays."""
+    page = browser.open(site.url + "mill/?language=en", "HTMLCanvasElement.prototype.getContext = () => null;")
+    page.wait("window.burr?.trouble", WAIT)
+    time.sleep(8)  # the worker would have been ready by now
+    said = page.run("document.getElementById('say').textContent")
+    check(said == words_of("en")["no_webgl"], f"a browser without WebGL 2 says: {said}")
+    page.close()
+
+
+HIDDEN = """(() => { let hidden = true;
+  Object.defineProperty(document, 'hidden', {get: () => hidden});
+  window.show_page = (on) => { hidden = !on; document.dispatchEvent(new Event('visibilitychange')); };
+})()"""
+# Counts the timers of a worker that have not fired.
+TIMERS = """(() => { const set = self.setTimeout, clear = self.clearTimeout; self.pending = new Set();
+  self.setTimeout = (call, ms) => { const one = set(() => { pending.delete(one); call(); }, ms); pending.add(one); return one; };
+  self.clearTimeout = (one) => { pending.delete(one); clear(one); };
+})()"""
+
+
+def in_the_background(browser, site):
+    """A page that nobody sees does not tick, also when it was opened so. The host sends the policy for the worker."""
+    page = browser.open(site.url + "mill/", HIDDEN)
+    page.wait("window.burr && burr.ready", WAIT)
+    page.run(TIMERS, page.workers[0])
+    time.sleep(2)
+    page.run("burr.hash()")
+    page.wait("burr.hashes", WAIT)
+    check(page.run("burr.hashes.ticks") == 0, f"no tick in the background: {page.run('burr.hashes.ticks')}")
+    page.run("show_page(true)")
+    page.wait("burr.state.ticks > 500", WAIT)
+    page.run("for (let n = 0; n < 20; ++n) { show_page(false); show_page(true); }")
+    page.wait(f"burr.state.ticks > {page.run('burr.state.ticks')} + 200", WAIT)
+    pending = page.run("pending.size", page.workers[0])
+    check(pending <= 1, f"one beat at a time waits: {pending}")
+    memory = page.run("""(async () => { const {compile, start} = await import('../common/burr.js');
+      const another = await start(await compile());
+      try { another.with_bytes([{byteLength: 3e9}], () => 0); return 'nothing'; } catch (what) { return what.why; } })()""")
+    check(memory == "no_memory", f"more than the memory holds: {memory}")
+    check(not page.troubles, f"no errors on the console {page.troubles}")
+    page.close()
 
 
 def replay(browser, site, recorded):
@@ -153,6 +213,7 @@ def replay(browser, site, recorded):
         milled = json.loads(told.stdout.strip().splitlines()[-1])
         page = browser.open(site.url + "replay/")
         page.wait("window.burr?.open", WAIT)
+        loaded = len(page.requests)
         page.choose("#file", file)
         page.wait("burr.ready && burr.shown === 0", WAIT)
         start = page.run("burr.bone")
@@ -165,6 +226,16 @@ def replay(browser, site, recorded):
         check(abs(removed - milled["removed_mm3"]) < 1e-9, f"removed {removed:.3f} mm3, as the program says")
         page.wait("burr.refined()", WAIT)
         page.picture(PICTURES and PICTURES / "replay.png")
+        slow = pathlib.Path(folder) / "slow.mcap"
+        subprocess.run([BURR, "--quiet", "mill", "phantom:block", "--voxel-mm", "0.5", "--motion", "pocket", "--burr-mm",
+                        "4", "--seconds", "1", "--rate", "500", "--record", slow, "--embed"], capture_output=True, check=True)
+        page.choose("#file", slow)
+        page.wait("burr.ready && burr.shown === 0", WAIT)
+        page.run("(() => { const time = document.getElementById('time'); time.value = burr.seconds;"
+                 "time.dispatchEvent(new Event('input')); })()")
+        page.wait("burr.shown === burr.seconds", WAIT)
+        shown, wanted = page.run("burr.figures.time"), page.run("burr.seconds")
+        check(abs(shown - wanted) < 0.01, f"a recording of 500 ticks a second ends at {shown:.3f} s of {wanted:.3f} s")
         if recorded:
             page.choose("#file", recorded)
             page.wait("burr.ready && burr.shown === 0", WAIT)
@@ -174,21 +245,33 @@ def replay(browser, site, recorded):
         page.choose("#file", bad_file)
         page.wait("burr.refused", WAIT)
         check("bad.mcap" in page.run("burr.refused"), f"a torn file is refused: {page.run('burr.refused')}")
-        later = [url for _, url in page.requests if not url.startswith((site.url, "data:"))]
-        check(not later, f"nothing is sent anywhere {later}")
+        kept = page.run("""(() => { const data = new DataTransfer(); data.items.add(new File(['x'], 'dropped.mcap'));
+          return document.querySelector('footer').dispatchEvent(
+              new DragEvent('drop', {bubbles: true, cancelable: true, dataTransfer: data})) === false; })()""")
+        check(kept, "a file that is dropped beside the picture does not take the page's place")
+        if kept:
+            page.wait("burr.refused?.includes('dropped.mcap')", WAIT)
+            check(True, f"it is opened: {page.run('burr.refused')}")
+        requests(page, site, loaded)
         sent = [one for one in page.sent if one != "GET"]
         check(not sent, f"nothing is uploaded {sent}")
         check(not page.troubles, f"no errors on the console {page.troubles}")
         page.close()
 
 
+def words_of(code):
+    return (tomllib.loads((ROOT / f"words/{code}.toml").read_text()) |
+            tomllib.loads((ROOT / f"web/words/{code}.toml").read_text()))
+
+
 def languages(browser, site):
     for code in ("sv", "de"):
         page = browser.open(f"{site.url}mill/?language={code}")
         page.wait("document.getElementById('undo')?.textContent", WAIT)
-        wanted = tomllib.loads((ROOT / f"words/{code}.toml").read_text())
+        wanted = words_of(code)
         check(page.run("document.getElementById('undo').textContent") == wanted["undo"] and
               page.run("document.querySelector('[data-word=force]').textContent") == wanted["force"] and
+              page.run("document.getElementById('picture').getAttribute('aria-label')") == wanted["bone"] and
               page.run("document.documentElement.lang") == code, f"the words of the window in {code}")
         check(not page.troubles, f"no errors on the console {page.troubles}")
         page.close()
@@ -201,12 +284,16 @@ def main():
         loaded = mill(page)
         undo_and_reset(page)
         recorded = record(page, downloads)
+        finer(page)
         requests(page, site, loaded)
         check(not page.troubles, f"no errors on the console {page.troubles}")
         print("ticks:", page.run("JSON.stringify(burr.state)"), "pictures:", page.run("burr.pictures"))
         page.close()
         replay(browser, site, recorded)
+        without_webgl(browser, site)
         languages(browser, site)
+        with Site(SITE, {"Content-Security-Policy": policy()}) as strict:
+            in_the_background(browser, strict)
     if bad:
         sys.exit("\n".join(bad))
 

@@ -14,6 +14,11 @@ export async function compile() {
   return WebAssembly.compile(await answer.arrayBuffer());
 }
 
+// What went wrong, by the key of its sentence (web/words): the worker has no words.
+export function trouble(why, ...parts) {
+  return Object.assign(new Error([why, ...parts].join(' ')), {why, parts});
+}
+
 // Starts it; gives its functions without their underscore, and memory.
 export async function start(compiled) {
   const module = await make({
@@ -31,14 +36,18 @@ export async function start(compiled) {
   calls.numbers = (pointer, count) => new Float64Array(module.HEAPU8.buffer, pointer, count);
   // Copies into its memory, calls, and frees again.
   calls.with_bytes = (arrays, call) => {
-    const pointers = arrays.map((array) => {
-      const pointer = module._malloc(Math.max(1, array.byteLength));
-      module.HEAPU8.set(array, pointer);
-      return pointer;
-    });
-    const answer = call(...pointers);
-    pointers.forEach((pointer) => module._free(pointer));
-    return answer;
+    const pointers = [];
+    try {
+      for (const array of arrays) {
+        const pointer = module._malloc(Math.max(1, array.byteLength));
+        if (pointer === 0) throw trouble('no_memory');  // at 0 lies the module's own data
+        pointers.push(pointer);
+        module.HEAPU8.set(array, pointer);
+      }
+      return call(...pointers);
+    } finally {
+      pointers.forEach((pointer) => module._free(pointer));
+    }
   };
   return calls;
 }

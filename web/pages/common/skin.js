@@ -25,8 +25,10 @@ function copy(burr, pointer, size) {
 }
 
 export class Skin {
-  constructor(burr) {
+  // work: the number of the bone, which each message carries
+  constructor(burr, work) {
     this.burr = burr;
+    this.work = work;
     this.fresh = [];  // patches that the page does not have yet
   }
   // Makes the next patch that has changed. False: none has.
@@ -42,21 +44,22 @@ export class Skin {
   send(message) {
     const patches = this.fresh;
     this.fresh = [];
-    self.postMessage({...message, patches}, transfer(patches));
+    self.postMessage({...message, work: this.work, patches}, transfer(patches));
   }
-  // The whole surface, what is near the work first, then the soft structures.
-  async send_whole() {
+  // The whole surface, what is near the work first, then the soft structures. It stops when `wanted` says no.
+  async send_whole(wanted) {
     for (let more = true; more;) {
       const until = performance.now() + kFirstMs;
       while (more && performance.now() < until) more = this.make_one();
       this.send({kind: 'skin'});
       await turn();
+      if (!wanted()) return;
     }
-    self.postMessage({kind: 'skin_done'});
+    self.postMessage({kind: 'skin_done', work: this.work});
     const parts = [];
     for (let given = this.burr.core_soft(); given !== 0; given = this.burr.core_soft())
       parts.push(copy(this.burr, given, kSkinVertex));
-    self.postMessage({kind: 'soft', parts}, transfer(parts));
+    self.postMessage({kind: 'soft', work: this.work, parts}, transfer(parts));
   }
 }
 

@@ -12,9 +12,8 @@ export async function load() {
 
 // word('left_out', 12)
 export function word(key, ...parts) {
-  let text = all[language]?.[key] ?? all.en?.[key] ?? key;
-  for (const part of parts) text = text.replace(/\{[^}]*\}/, part);
-  return text;
+  const text = all[language]?.[key] ?? all.en?.[key] ?? key;
+  return text.replace(/\{[^}]*\}/g, (gap) => parts.shift() ?? gap);
 }
 export const languages = () => Object.entries(all).map(([code, words]) => ({code, name: words.name}));
 export const present = () => language;

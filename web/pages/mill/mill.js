@@ -1,6 +1,6 @@
 // The page "mill": a bone to cut, with mouse or finger. The program runs twice: here it draws the
 // picture and says where the hand is; in worker.js it ticks.
-import {compile, start} from '../common/burr.js';
+import {compile, start, trouble} from '../common/burr.js';
 import {show} from '../common/skin.js';
 import * as words from '../common/words.js';
 
@@ -31,6 +31,8 @@ const burr = window.burr = {
   measure: () => worker.postMessage({kind: 'measure'}),  // times of ticks begin anew
   hash: () => worker.postMessage({kind: 'hashes'}),      // gives burr.hashes
   refined: () => view.view_refined() === 1 && waiting.length === 0,
+  // of the last picture: share that was drawn anew, patches sent, patches drawn, triangles drawn, step of the governor
+  drawn: () => [...view.numbers(view.view_drawn(), 5)],
 };
 const mark = (name) => { burr.times[name] ??= Math.round(performance.now()); };
 
@@ -39,7 +41,9 @@ let pointer = null;     // in the picture [pixel of the canvas]
 let pressed = false, depth = 4;
 let answered = true;    // a state has come that was not answered yet
 let dirty = true;       // the picture must be drawn
-let speed = 80000, size = 5;
+let speed = 80000, size = 5;  // as they were asked for
+let states = 0;         // since another size was asked for
+let work = 0;           // number of the bone
 let before = 0, drew = false;
 let skin_whole = false;
 const waiting = [];     // patches and parts for the view
@@ -49,16 +53,20 @@ main().catch(fail);
 async function main() {
   worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
   worker.onmessage = ({data}) => hear(data);
-  worker.onerror = (trouble) => fail(new Error(trouble.message || 'worker'));
+  worker.onerror = (what) => fail(new Error(what.message || 'worker'));
+  // a page that nobody sees stands still
+  document.addEventListener('visibilitychange', () => {
+    pressed = false;
+    worker.postMessage({kind: 'pause', on: document.hidden});
+  });
   const [module] = await Promise.all([compile(), words.load()]);
   compiled = module;
   mark('compiled');
-  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel});
+  begin();
   dress();
-  say(word('shaping'));
   view = await start(compiled);
   const [wide, high] = wanted_size();
-  if (view.view_open(wide, high) === 0) throw new Error(word('no_webgl'));
+  if (view.view_open(wide, high) === 0) throw trouble('no_webgl');
   burr.gpu = view.text(view.view_gpu());
   view.view_bone(burr.voxel);
   listen();
@@ -66,16 +74,26 @@ async function main() {
   requestAnimationFrame(draw);
 }
 
-function fail(trouble) {
-  burr.trouble = String(trouble?.message ?? trouble);
-  const lacking = typeof WebAssembly !== 'object' || trouble instanceof WebAssembly.CompileError;
-  say(lacking ? word('no_module') : word('broken', burr.trouble));
-  console.error(trouble);
+// The worker begins with a bone, the first one or another.
+function begin() {
+  say(word('shaping'));
+  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel, work: ++work, hidden: document.hidden});
+}
+
+// The page stops, and its last sentence stays.
+function fail(what) {
+  if (burr.trouble) return;
+  burr.trouble = String(what?.message ?? what);
+  worker?.terminate();
+  const lacking = typeof WebAssembly !== 'object' || what instanceof WebAssembly.CompileError;
+  say(lacking ? word('no_module') : what?.why ? word(what.why, ...what.parts) : word('broken', burr.trouble));
+  console.error(what);
 }
 
 // ---- from the worker
 
 function hear(data) {
+  if (burr.trouble || data.work !== work) return;
   switch (data.kind) {
     case 'shaped':
       mark('shaped');
@@ -91,7 +109,7 @@ function hear(data) {
       break;
     case 'ready':
       burr.ready = true;
-      view.view_anew();
+      view?.view_anew();
       mark('ready');
       say(word('drag_mill') + '. ' + word('how_mouse'), 12000);
       break;
@@ -99,16 +117,17 @@ function hear(data) {
       waiting.push(...data.patches, {row: data.row});
       burr.state = {ticks: data.ticks, left_out: data.left_out, p50: data.p50, p99: data.p99};
       answered = false;
+      ++states;
       break;
     case 'hashes':
       burr.hashes = data;
       break;
     case 'saved':
       if (data.file) keep(data.file);
-      else say(word('not_saved', data.why));
+      else say(data.why ? word('not_saved', data.why) : word('saved_before'));
       break;
     case 'broken':
-      fail(new Error(data.text));
+      fail(Object.assign(new Error(data.text), {why: data.why, parts: data.parts}));
       break;
   }
   dirty = true;
@@ -173,6 +192,7 @@ function write() {
   const [time, force, removed, size_now, rpm, now, touching, flags] = view.numbers(view.view_figures(), 8);
   const size_mm = Math.round(100 * size_now) / 100;
   burr.figures = {time, force, removed, size: size_mm, rpm, now, touching, flags};
+  if (states > 2) size = size_mm;  // the servo has answered by now, or refused
   if (!burr.ready) return;
   $('force').textContent = number(force, 1);
   $('bar').style.width = `${Math.min(100, 100 * force / kMostForce)}%`;
@@ -221,16 +241,17 @@ function keep(bytes) {
   link.href = URL.createObjectURL(new Blob([bytes], {type: 'application/octet-stream'}));
   link.download = 'burr.mcap';
   link.click();
-  burr.file = link.href;
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);  // the browser has taken it by then
   say(word('saved'), 12000);
 }
 
-// the servo refuses a burr of less than four voxels
+// the servo refuses a burr of less than four voxels, and one for which there is no room
 function resize(by) {
   const fitting = kSizes.filter((one) => one >= 4 * burr.voxel);
-  const at = fitting.indexOf(size) + by;
-  if (at < 0 || at >= fitting.length) return;
-  size = fitting[at];
+  const next = by < 0 ? fitting.findLast((one) => one < size - 0.01) : fitting.find((one) => one > size + 0.01);
+  if (next === undefined) return;
+  size = next;
+  states = 0;
   command(Command.burr_radius, 0.5e-3 * size);
 }
 function change_speed(by) {
@@ -242,9 +263,8 @@ function change_depth(factor) {
   $('depth').textContent = number(depth, 1);
 }
 
-// The same bone with finer voxels, in a new worker.
+// The same bone with finer voxels, in the same worker.
 function begin_finer() {
-  worker.terminate();
   burr.voxel = burr.voxel === 0.5 ? 0.25 : 0.5;
   burr.ready = skin_whole = false;
   burr.times = {};
@@ -252,13 +272,11 @@ function begin_finer() {
   answered = true;
   speed = 80000;
   size = 5;
+  states = 0;
   view.view_bone(burr.voxel);
   $('save').disabled = false;
   dress();
-  say(word('shaping'));
-  worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
-  worker.onmessage = ({data}) => hear(data);
-  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel});
+  begin();
   dirty = true;
 }
 
@@ -346,11 +364,8 @@ function listen() {
     }
     event.preventDefault();
   });
-  // a page that nobody sees stands still
-  document.addEventListener('visibilitychange', () => {
-    pressed = false;
-    worker.postMessage({kind: 'pause', on: document.hidden});
-  });
+  // a file that is dropped here would take the place of the page
+  for (const kind of ['dragover', 'drop']) window.addEventListener(kind, (event) => event.preventDefault());
   canvas.addEventListener('webglcontextlost', () => fail(new Error('WebGL')));
   for (const id of Object.keys(acts)) $(id)?.addEventListener('click', () => acts[id]());
   $('language').addEventListener('change', () => {
@@ -363,6 +378,7 @@ function listen() {
 function dress() {
   for (const one of document.querySelectorAll('[data-word]')) one.textContent = word(one.dataset.word);
   for (const id of ['undo', 'redo', 'reset']) $(id).textContent = word(id);
+  canvas.setAttribute('aria-label', word('bone'));
   for (const [id, key] of Object.entries({smaller: 'smaller', larger: 'larger', slower: 'slower', faster: 'faster',
                                           less: 'less_deep', more: 'deeper'})) {
     $(id).title = word(key);

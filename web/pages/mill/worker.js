@@ -3,12 +3,15 @@
 // All ticks that are due are computed together, every 4 ms or so: a mouse has no motors, so nobody
 // feels that. Ticks that a busy machine has missed are left out and counted, never made up for.
 //
-//     page -> worker   start {compiled, voxel}, next {aim}, command {what, value}, pause {on}, hashes, save, measure
+//     page -> worker   start {compiled, voxel, work, hidden}, next {aim}, command {what, value}, pause {on}, hashes,
+//                      save, measure
 //     worker -> page   shaped, skin {patches}, skin_done, soft {parts}, ready, state {row, patches, ...}, hashes,
-//                      saved {file} or {why}, broken {text}
+//                      saved {file} or {why}, broken {text, why, parts}
 //
-// The page answers every state with `next`; until then none is sent, so none waits in a queue.
-import {start} from '../common/burr.js';
+// The page answers every state with `next`; until then none is sent, so none waits in a queue. A second `start` begins
+// anew with another bone: the worker stays, so nothing is fetched again. Each bone has a number, `work`, and each message
+// carries it, so that the page can leave what came of the bone before.
+import {start, trouble} from '../common/burr.js';
 import {Skin} from '../common/skin.js';
 
 const kMostTicks = 50;    // in one beat
@@ -16,6 +19,8 @@ const kSkinMs = 4;        // for the surface, in each beat
 
 let burr = null, skin = null;
 let paused = false, wanted = true, running = false;
+let work = 0;            // number of the bone
+let timer = 0;           // of the next beat; there is never more than one
 let begun = 0, done = 0, left_out = 0;
 const took = new Map();  // microseconds of a tick -> how many
 let timed = 0;           // ticks in it
@@ -28,13 +33,17 @@ self.onmessage = ({data}) => {
   }
 };
 
-function broken(trouble) {
+function tell(message, transfer = []) {
+  self.postMessage({...message, work}, transfer);
+}
+function broken(what) {
   running = false;
-  self.postMessage({kind: 'broken', text: String(trouble?.message ?? trouble)});
+  tell({kind: 'broken', text: String(what?.message ?? what), why: what?.why, parts: what?.parts});
 }
 
 function take(data) {
   if (data.kind === 'start') return void open(data).catch(broken);
+  if (data.kind === 'pause') return pause(data.on);  // the bone may still be on its way
   if (!running) return;
   if (data.kind === 'next') {
     wanted = true;
@@ -44,46 +53,56 @@ function take(data) {
     }
   } else if (data.kind === 'command') {
     burr.core_command(data.what, data.value);
-  } else if (data.kind === 'pause') {
-    if (paused === data.on) return;
-    paused = data.on;
-    if (!paused) {
-      begin_clock();
-      beat();
-    }
   } else if (data.kind === 'hashes') {
     const [tick, bone] = burr.text(burr.core_hashes()).split(' ');
-    self.postMessage({kind: 'hashes', tick, bone, ticks: done});
+    tell({kind: 'hashes', tick, bone, ticks: done});
   } else if (data.kind === 'measure') {
-    took.clear();
-    timed = 0;
+    clear_times();
   } else if (data.kind === 'save') {
     save();
   }
 }
 
+function pause(on) {
+  if (paused === on) return;
+  paused = on;
+  if (paused || !running) return;
+  begin_clock();
+  beat();
+}
+
 // Completes the recording, which lies in the module's own memory, and hands it over.
 function save() {
   if (burr.core_finish_recording() === 0) {
-    self.postMessage({kind: 'saved', why: burr.text(burr.core_why())});
+    tell({kind: 'saved', why: burr.text(burr.core_why())});
     return;
   }
   const {FS} = burr.module;
   const file = FS.readFile('/burr.mcap');
   FS.unlink('/burr.mcap');
-  self.postMessage({kind: 'saved', file}, [file.buffer]);
+  tell({kind: 'saved', file}, [file.buffer]);
 }
 
-async function open({compiled, voxel}) {
-  burr = await start(compiled);
-  if (!burr.core_make(voxel)) throw new Error('not enough memory');
-  self.postMessage({kind: 'shaped', voxel});
-  skin = new Skin(burr);
-  await skin.send_whole();
+async function open(from) {
+  work = from.work;
+  paused = from.hidden;
+  running = false;
+  wanted = true;
+  done = left_out = 0;
+  clear_times();
+  burr = skin = null;  // an older bone gives its memory back
+  const mine = await start(from.compiled);
+  if (work !== from.work) return;  // another one was asked for meanwhile
+  burr = mine;
+  if (!burr.core_make(from.voxel)) throw trouble('no_memory');
+  tell({kind: 'shaped', voxel: from.voxel});
+  skin = new Skin(burr, work);
+  await skin.send_whole(() => work === from.work);
+  if (work !== from.work) return;
   burr.core_begin();
   running = true;
   begin_clock();
-  self.postMessage({kind: 'ready'});
+  tell({kind: 'ready'});
   beat();
 }
 
@@ -91,7 +110,13 @@ function begin_clock() {
   begun = performance.now() - done - left_out;
 }
 
+function clear_times() {
+  took.clear();
+  timed = 0;
+}
+
 function beat() {
+  clearTimeout(timer);
   if (paused || !running) return;
   try {
     const now = performance.now();
@@ -114,7 +139,7 @@ function beat() {
       const row = burr.bytes(burr.core_row(), burr.core_row_size()).slice();
       skin.send({kind: 'state', row, ticks: done, left_out, ...shares()});
     }
-    setTimeout(beat, 2);
+    timer = setTimeout(beat, 2);
   } catch (trouble) {
     broken(trouble);
   }

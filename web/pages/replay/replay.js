@@ -1,6 +1,6 @@
 // The page "replay": a recording from a file of the user's, at any moment. The file goes to the worker of this page and
 // nowhere else.
-import {compile, start} from '../common/burr.js';
+import {compile, start, trouble} from '../common/burr.js';
 import {show} from '../common/skin.js';
 import * as words from '../common/words.js';
 
@@ -15,40 +15,51 @@ const burr = window.burr = {pictures: 0, ready: false, figures: {}, refined: () 
 
 let view = null, worker = null, compiled = null;
 let seconds = 0, wanted = null, asked = false, playing = 0;  // playing: when it began, less the time shown [ms]
-let dirty = true, seen = false, before = 0;
+let dirty = true, seen = false, before = 0, drew = false;
+let work = 0;       // number of the file
 let moment = null;  // the newest from the worker
+let come = null;    // to call when the worker is there
 const waiting = [];
 
 main().catch(fail);
 
 async function main() {
+  worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
+  worker.onmessage = ({data}) => hear(data);
+  worker.onerror = (what) => fail(new Error(what.message || 'worker'));
+  const here = new Promise((go) => { come = go; });
   const [module] = await Promise.all([compile(), words.load()]);
   compiled = module;
   view = await start(compiled);
-  if (view.view_open(...wanted_size()) === 0) throw new Error(word('no_webgl'));
+  if (view.view_open(...wanted_size()) === 0) throw trouble('no_webgl');
   view.view_bone(0.5);
   for (const one of document.querySelectorAll('[data-word]')) one.textContent = word(one.dataset.word);
   $('home').textContent = word('first_view');
+  canvas.setAttribute('aria-label', word('bone'));
   $('play').textContent = word('play');
   $('file').setAttribute('aria-label', word('open_recording'));
   $('time').setAttribute('aria-label', word('time'));
+  await here;  // from now on nothing is fetched
+  if (burr.trouble) return;
   say(word('open_recording'));
   listen();
   burr.open = true;
   requestAnimationFrame(draw);
 }
 
-function fail(trouble) {
-  burr.trouble = String(trouble?.message ?? trouble);
-  say(word('broken', burr.trouble));
-  console.error(trouble);
+// The page stops, and its last sentence stays.
+function fail(what) {
+  if (burr.trouble) return;
+  burr.trouble = String(what?.message ?? what);
+  worker?.terminate();
+  say(what?.why ? word(what.why, ...what.parts) : word('broken', burr.trouble));
+  console.error(what);
 }
 function say(text) {
   $('say').textContent = text;
 }
 
 function open(file) {
-  worker?.terminate();
   burr.ready = seen = asked = false;
   moment = null;
   burr.shown = undefined;
@@ -58,19 +69,18 @@ function open(file) {
   wanted = null;
   $('play').disabled = $('time').disabled = true;
   say(word('loading'));
-  worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
-  worker.onmessage = ({data}) => hear(data);
-  worker.onerror = (trouble) => fail(new Error(trouble.message || 'worker'));
-  worker.postMessage({kind: 'open', compiled, file});
+  worker.postMessage({kind: 'open', compiled, file, work: ++work});
 }
 
 function hear(data) {
+  if (data.kind === 'here') return come();
+  if (burr.trouble || data.work !== work) return;
   switch (data.kind) {
     case 'opened':
       seconds = burr.seconds = data.seconds;
       for (const {name, told} of data.tissues)
         view.with_bytes([new TextEncoder().encode(name + '\0')], (text) => view.view_tissue(text, ...told));
-      view.view_other_bone(data.voxel);
+      view.view_other_bone(data.voxel, data.rate);
       $('time').max = seconds;
       $('time').value = 0;
       break;
@@ -92,12 +102,12 @@ function hear(data) {
       asked = false;
       break;
     case 'refused':
-      burr.refused = data.why;
-      say(data.why);
+      burr.refused = word(data.why, ...data.parts);
+      say(burr.refused);
       asked = false;
       break;
     case 'broken':
-      fail(new Error(data.text));
+      fail(Object.assign(new Error(data.text), {why: data.why, parts: data.parts}));
       break;
   }
   dirty = true;
@@ -116,7 +126,7 @@ function draw(now) {
       if (wanted >= seconds) stop();
     }
     if (burr.ready && wanted !== null && !asked) {
-      worker.postMessage({kind: 'seek', time: wanted});
+      worker.postMessage({kind: 'seek', time: wanted, work});
       wanted = null;
       asked = true;
     }
@@ -129,10 +139,11 @@ function draw(now) {
       view.view_whole();
     }
     fit();
-    if (!dirty && !fresh && view.view_refined() === 1) return;
-    dirty = false;
-    const took = now - before;
+    const took = drew ? now - before : 0;  // of the picture before, if this one follows at once; a rest is no work
     before = now;
+    drew = dirty || fresh || view.view_refined() === 0;
+    if (!drew) return;
+    dirty = false;
     if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) throw new Error(view.text(view.view_why()));
     ++burr.pictures;
     if (fresh) write();
@@ -173,8 +184,9 @@ function fit() {
 
 function listen() {
   $('file').addEventListener('change', () => { if ($('file').files[0]) open($('file').files[0]); });
-  canvas.addEventListener('dragover', (event) => event.preventDefault());
-  canvas.addEventListener('drop', (event) => {
+  // on the whole window: a file that is dropped beside the canvas would take the place of the page
+  window.addEventListener('dragover', (event) => event.preventDefault());
+  window.addEventListener('drop', (event) => {
     event.preventDefault();
     if (event.dataTransfer.files[0]) open(event.dataTransfer.files[0]);
   });

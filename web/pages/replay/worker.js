@@ -1,27 +1,39 @@
 // The worker of the page: reads a recording, and makes bone and row of any moment. The file stays in this worker.
 //
-//     page -> worker   open {compiled, file}, seek {time}
-//     worker -> page   opened {seconds, voxel, tissues}, skin {patches}, skin_done, soft {parts}, ready,
-//                      moment {time, row, patches}, refused {why}, broken {text}
+//     page -> worker   open {compiled, file, work}, seek {time}
+//     worker -> page   here, opened {seconds, rate, voxel, tissues}, skin {patches}, skin_done, soft {parts}, ready,
+//                      moment {time, row, patches}, refused {why, parts}, broken {text, why, parts}
+//
+// Each file has a number, `work`, and each message carries it, so that the page can leave what came of the file before.
 import {start} from '../common/burr.js';
 import {Skin} from '../common/skin.js';
 
 let burr = null, skin = null;
+let work = 0;  // number of the file
 
 self.onmessage = async ({data}) => {
   try {
     if (data.kind === 'open') await open(data);
-    else seek(data.time);
-  } catch (trouble) {
-    self.postMessage({kind: 'broken', text: String(trouble?.message ?? trouble)});
+    else if (data.work === work) seek(data.time);
+  } catch (what) {
+    tell({kind: 'broken', text: String(what?.message ?? what), why: what?.why, parts: what?.parts});
   }
 };
+self.postMessage({kind: 'here'});
 
-async function open({compiled, file}) {
-  burr = await start(compiled);
-  burr.module.FS.writeFile('/burr.mcap', new Uint8Array(await file.arrayBuffer()), {canOwn: true});
+function tell(message) {
+  self.postMessage({...message, work});
+}
+
+async function open({compiled, file, work: mine}) {
+  work = mine;
+  burr = skin = null;  // an older file gives its memory back
+  const [fresh, bytes] = await Promise.all([start(compiled), file.arrayBuffer()]);
+  if (work !== mine) return;  // another one was chosen meanwhile
+  burr = fresh;
+  burr.module.FS.writeFile('/burr.mcap', new Uint8Array(bytes), {canOwn: true});
   if (burr.core_open() === 0) {
-    self.postMessage({kind: 'refused', why: burr.text(burr.core_why()).replaceAll('/burr.mcap', file.name)});
+    tell({kind: 'refused', why: 'not_opened', parts: [file.name, burr.text(burr.core_why()).replace('/burr.mcap: ', '')]});
     return;
   }
   const tissues = [];
@@ -30,15 +42,15 @@ async function open({compiled, file}) {
     if (at === 0) break;
     tissues.push({name: burr.text(burr.core_tissue_name(n)), told: [...burr.numbers(at, 5)]});
   }
-  self.postMessage({kind: 'opened', seconds: burr.core_seconds(), voxel: burr.core_voxel_mm(), tissues});
-  skin = new Skin(burr);
-  await skin.send_whole();
-  self.postMessage({kind: 'ready'});
+  tell({kind: 'opened', seconds: burr.core_seconds(), rate: burr.core_rate(), voxel: burr.core_voxel_mm(), tissues});
+  skin = new Skin(burr, work);
+  await skin.send_whole(() => work === mine);
+  if (work === mine) tell({kind: 'ready'});
 }
 
 function seek(time) {
   if (burr.core_seek(time) === 0) {
-    self.postMessage({kind: 'refused', why: burr.text(burr.core_why())});
+    tell({kind: 'refused', why: 'no_moment', parts: [burr.text(burr.core_why())]});
     return;
   }
   skin.make_all();
