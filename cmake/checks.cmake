@@ -53,6 +53,10 @@ if(Python3_FOUND)
   add_test(NAME house.report COMMAND ${checks}/report.sh ${CMAKE_BINARY_DIR})
   set_tests_properties(house.report PROPERTIES TIMEOUT 300)
 endif()
+if(Python3_FOUND)
+  add_test(NAME house.school COMMAND ${checks}/school.sh ${CMAKE_BINARY_DIR})
+  set_tests_properties(house.school PROPERTIES TIMEOUT 300)
+endif()
 add_test(NAME house.recording_trouble COMMAND ${checks}/recording_trouble.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(house.recording_trouble PROPERTIES TIMEOUT 300)
 add_test(NAME house.install COMMAND ${checks}/install.sh ${CMAKE_BINARY_DIR})
@@ -143,12 +147,13 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # memory. clang++ compiles it in a third of g++'s time, and the fuzzers below use the same
   # library. Sanitized code is several times slower, so the longest random tests run in the release
   # build only.
-  set(asan_rooms base rt math tool volume edit haptics device surface io importing record tick)
+  set(asan_rooms base rt math tool volume edit haptics device surface io importing record tick school serve)
   set(asan_filter_haptics "-*Million*:*Random*")
   set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads
                                    # the same files
   # bounds of forces, which the release build tests; and an arm on DDS, whose opening takes 36 ms
   set(asan_filter_device "-*OfManyRandomForces*:LeaderTest.AThousandTimes*")
+  set(asan_filter_school "-*Server*")  # the release build talks to the server; libpq keeps memory to the end
   set(asan_filter_record "-Player.OpensAnyMomentOfTenMinutesAtOnce")  # long, and shorter tests take the same way
   set(asan_targets)
   foreach(room ${asan_rooms})
@@ -199,6 +204,15 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # the unit tests of the core, three minutes on one processor: beside other tests
   add_test(NAME portable.aarch64_tests COMMAND ${checks}/portable.sh aarch64 ${CMAKE_BINARY_DIR} tests)
   set_tests_properties(portable.aarch64_tests PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_aarch64)
+
+  # the page that portable.web has built, in a browser
+  add_test(NAME page COMMAND ${checks}/page.sh ${CMAKE_BINARY_DIR})
+  set_tests_properties(page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long
+    FIXTURES_REQUIRED portable_web)
+
+  # the instructor's page, in a browser
+  add_test(NAME school_page COMMAND ${checks}/school_page.sh ${CMAKE_BINARY_DIR})
+  set_tests_properties(school_page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 LABELS long)
 
   # libFuzzer: 3 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)

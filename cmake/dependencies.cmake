@@ -20,6 +20,7 @@ if(NOT tomlplusplus_FOUND)
 endif()
 # reading scans: bzip2; GDCM decodes DICOM pixels (its own config file would pull in VTK)
 find_package(BZip2 REQUIRED)
+find_package(OpenSSL 3 REQUIRED)  # TLS of `burr serve`
 find_package(PNG REQUIRED)  # pictures of AMBF's volumes; stb only writes
 pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)  # and their description
 find_package(meshoptimizer REQUIRED)
@@ -31,6 +32,9 @@ find_library(BURR_GDCM_COMMON gdcmCommon REQUIRED)
 add_library(burr_gdcm INTERFACE)
 target_include_directories(burr_gdcm SYSTEM INTERFACE ${BURR_GDCM_INCLUDE})
 target_link_libraries(burr_gdcm INTERFACE ${BURR_GDCM_MSFF} ${BURR_GDCM_DSED} ${BURR_GDCM_COMMON})
+# the store of learners: a file, or a centre's server
+pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
+pkg_check_modules(POSTGRES REQUIRED IMPORTED_TARGET libpq)
 # the bus of ROS 2, which CRTK arms use; idlc generates C from the messages
 find_package(CycloneDDS REQUIRED)
 find_program(BURR_IDLC idlc REQUIRED)

@@ -56,3 +56,7 @@ install(FILES ${CMAKE_BINARY_DIR}/burrConfig.cmake ${CMAKE_BINARY_DIR}/burrConfi
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
 # examples to start from; the program contains them too
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/cases FILES_MATCHING PATTERN "*.toml")
+# the page, where it was built (cmake --build --preset web); `burr web` copies it
+if(EXISTS ${CMAKE_BINARY_DIR}/../web/site/burr_page.wasm)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/../web/site/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/web)
+endif()

@@ -95,6 +95,16 @@ burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp
     ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp
   WITH ZLIB::ZLIB BZip2::BZip2 PkgConfig::ZSTD PkgConfig::ASSIMP nlohmann_json::nlohmann_json ${CMAKE_DL_LIBS})
+# The web server is for the program alone: who cuts bone with libburr.so loads no TLS.
+set(serve_sources ${rest})
+list(FILTER serve_sources INCLUDE REGEX "/src/burr/serve/")
+list(REMOVE_ITEM rest ${serve_sources})
+# The store of learners is for the program alone: who cuts bone with libburr.so loads no database.
+set(school_sources ${rest})
+list(FILTER school_sources INCLUDE REGEX "/src/burr/school/")
+if(school_sources)
+  list(REMOVE_ITEM rest ${school_sources})
+endif()
 set(known ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
   ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 list(REMOVE_ITEM rest ${known})
@@ -128,6 +138,13 @@ set_target_properties(burr PROPERTIES OUTPUT_NAME burr VERSION ${PROJECT_VERSION
 set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
 list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/workshop/device_book[.]cpp$|/surgeon/motion[.]cpp$|/scoring/rubric[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
+
+add_library(burr_serve STATIC ${serve_sources})
+target_link_libraries(burr_serve PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
+add_library(burr_school STATIC ${school_sources})
+target_link_libraries(burr_school PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json
+  PkgConfig::SQLITE PkgConfig::POSTGRES)
+burr_common_headers(burr_school <fmt/format.h>)
 
 # what the built-in bones are shaped by (program.cmake)
 file(GLOB BURR_PHANTOMS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/phantom/*)

@@ -17,12 +17,17 @@ if(EMSCRIPTEN)
   # Eigen 3.4 takes clang for WebAssembly for something that it is not; math/sums.h says the order of additions
   target_compile_definitions(burr_eigen INTERFACE EIGEN_DONT_VECTORIZE)
   target_compile_options(burr_options INTERFACE -msimd128)
-  target_link_options(burr_options INTERFACE -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sNODERAWFS=1 -sEXIT_RUNTIME=1)
+  # emscripten's helpers find Debian's acorn there
+  set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
 endif()
 include(cmake/core.cmake)
 
 add_executable(portable_bits ${PROJECT_SOURCE_DIR}/tests/bits/portable_bits.cpp)
 target_link_libraries(portable_bits PRIVATE burr_core burr_options)
+if(EMSCRIPTEN)
+  target_link_options(portable_bits PRIVATE -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sNODERAWFS=1 -sEXIT_RUNTIME=1)
+  include(${PROJECT_SOURCE_DIR}/web/page.cmake)
+endif()
 
 # The unit tests of the core's rooms that need nothing else. Not for a browser: gtest wants threads and files.
 set(BURR_GOOGLETEST /usr/src/googletest CACHE PATH "the sources of googletest; Debian's package `googletest`")

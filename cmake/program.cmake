@@ -25,11 +25,24 @@ if(BURR_APP)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/words.h.in ${CMAKE_BINARY_DIR}/words/word_keys.h @ONLY)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/words.cpp.in ${CMAKE_BINARY_DIR}/words/word_texts.cpp @ONLY)
 
+  # ... and so does the instructor's page
+  set(BURR_PAGE_FILES "")
+  foreach(file index.html school.css school.mjs words.mjs)
+    set(path ${PROJECT_SOURCE_DIR}/web/school/${file})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+    get_filename_component(ending ${file} LAST_EXT)
+    string(REGEX REPLACE "^[.]" "" ending ${ending})
+    string(REPLACE "mjs" "javascript" type ${ending})
+    file(READ ${path} text)
+    string(APPEND BURR_PAGE_FILES "    {\"/${file}\", \"text/${type}; charset=utf-8\", R\"page(${text})page\"},\n")
+  endforeach()
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/page_files.cpp.in ${CMAKE_BINARY_DIR}/page_files.cpp @ONLY)
+
   # burr_of_program(TARGET [HEADER...]): what all that is compiled of it have in common; HEADER: parsed once for all
   function(burr_of_program target)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
       ${PROJECT_SOURCE_DIR}/third_party)
-    target_link_libraries(${target} PRIVATE burr burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
+    target_link_libraries(${target} PRIVATE burr burr_school burr_serve burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
     burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp> ${ARGN})
@@ -50,7 +63,7 @@ if(BURR_APP)
   add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS} ${CMAKE_BINARY_DIR}/words/word_texts.cpp)
   burr_of_program(burr_app)
 
-  add_executable(burr_program ${BURR_APP})
+  add_executable(burr_program ${BURR_APP} ${CMAKE_BINARY_DIR}/page_files.cpp)
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
   burr_of_program(burr_program <CLI/CLI.hpp>)
   target_link_libraries(burr_program PRIVATE burr_app)

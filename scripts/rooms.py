@@ -40,6 +40,8 @@ ALLOWED = {
     "fit": "record",
     "metrics": "record tick thermal volume tool rt",
     "scoring": "metrics record rt scenario volume",
+    "school": "people record",
+    "serve": "",
     "workshop": "sim tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
@@ -63,6 +65,7 @@ ONLY = {
     ("metrics", "tick"): {"rows.h"},
     ("metrics", "tool"): {"burr_tool.h", "state.h"},
     ("scoring", "record"): {"player.h", "course.h"},
+    ("school", "record"): {"identity.h"},
 }
 
 # Third-party headers and the folders that may include them.
@@ -70,6 +73,7 @@ ELSEWHERE = [
     (r"(GL|GLES\d?|EGL|epoxy|GLFW)/|SDL(2/SDL)?_(open|video|render|vulkan)", ["render/gl"], "graphics"),
     (r"openxr/", ["render/gl"], "a headset"),
     (r"SDL", ["render/gl", "sound"], "graphics and sound"),
+    (r"sqlite3|libpq|postgresql", ["school"], "a database"),
     (r"itk|gdcm|assimp/|vtk|png[.]h|yaml[.]h", ["io"], "a file format's library"),
     (r"dds/|crtk_messages", ["device/crtk"], "the bus of ROS 2"),
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only

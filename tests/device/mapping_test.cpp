@@ -117,6 +117,43 @@ TEST(MappedHand, TheAxesDoNotTurnUnderATorque) {
   EXPECT_LT(laid.hand->state(1e-3).world_from_tool.q.angularDistance(Quat::Identity()), 1e-7);
 }
 
+// The view was turned while the tool pressed. If the hand then grabs a piece of bone and lifts the tool off,
+// the axes wait, or the piece would turn at once.
+TEST(MappedHand, TheAxesDoNotTurnWhileItCarries) {
+  for (const bool foot : {false, true}) {
+    Laid laid;
+    static_cast<void>(laid.tip());
+    const auto turn = [&] { return laid.hand->state(1e-3).world_from_tool.q; };
+    const auto grab = [&](bool grabs) {
+      if (foot)
+        laid.hand->press(grabs ? 1 : 0);
+      else
+        laid.stub->hand.buttons = grabs ? 1 : 0;
+    };
+    laid.hand->write_force({0, 0, 1});
+    laid.hand->set_axes(Quat::Identity());
+    laid.hand->carry(true);
+    const Quat before = turn();
+    grab(true);
+    EXPECT_EQ(turn().coeffs(), before.coeffs());
+    laid.hand->write_force(Vec3::Zero());  // off the bone
+    for (int n = 0; n < 3; ++n) {
+      laid.move({0, 0, 0.001});
+      EXPECT_EQ(turn().coeffs(), before.coeffs()) << foot;
+    }
+    const Vec3 tip = laid.tip();
+    grab(false);
+    EXPECT_LT(turn().angularDistance(Quat::Identity()), 1e-7) << "now it may";
+    EXPECT_EQ(laid.hand->state(1e-3).pedal, 0);
+    EXPECT_NEAR((laid.tip() - tip).norm(), 0, 1e-12);
+    // a tool that runs in free air waits for nothing
+    laid.hand->carry(false);
+    grab(true);
+    laid.hand->set_axes(kTurn);
+    EXPECT_LT(turn().angularDistance(kTurn), 1e-7);
+  }
+}
+
 TEST(MappedHand, RefusesAScaleThatMakesNoSense) {
   for (const double scale : {0.0, -1.0, 100.0, std::numeric_limits<double>::quiet_NaN()}) {
     MappedHand hand(std::make_unique<Stub>(), {}, Quat::Identity(), {.scale = scale});

@@ -338,6 +338,149 @@ TEST(TwoTools, TakeNeitherMemoryNorLock) {
   EXPECT_GT(met, 50);
 }
 
+// ---- friction on the bone
+
+Scene floor() { return Scene(phantom::slab(), 0.25, 12); }  // its surface is z = 0
+
+tool::Tool box() { return test::one_part({ShapeKind::box, 2 * kMm, 2 * kMm, 1 * kMm, 0.3 * kMm}); }
+
+// Beside a tool that it does not touch, each is held as if it were alone.
+TEST(TwoTools, FrictionHoldsThemOnTheBoneAsIfEachWereAlone) {
+  const Scene scene = floor();
+  const Pose at_a = {{0, 0, 3 * kMm}, Quat::Identity()},
+             at_b = {{3.4 * kMm, 0, 4 * kMm}, Quat::Identity()};
+  Pair pair(scene, box(), ball(1 * kMm), at_a, at_b);
+  SixProxy alone_a(scene.surface, box(), {}, at_a), alone_b(scene.surface, ball(1 * kMm), {}, at_b);
+  for (SixProxy* proxy : {&pair.a, &pair.b, &alone_a, &alone_b}) proxy->set_friction({0.3, 0.27});
+  int together = 0, stuck = 0, slid = 0;
+  double off_stuck = 0, off_b = 0, held = 0, held_two = 0, leap = 0, leap_two = 0;
+  Vec3 before = Vec3::Zero(), before_two = Vec3::Zero();
+  for (int n = 0; n < 1500; ++n) {
+    // down, then along: first it sticks, then it slides
+    const double down = std::min(1.0, n / 300.0), along = n < 400 ? 0 : 0.6e-3 * (n - 400) * kMm;
+    const Vec3 by(0.2 * along, along, -2.6 * kMm * down);
+    const Pose hand_a = {at_a.p + by, at_a.q}, hand_b = {at_b.p + by, at_b.q};
+    pair.step(hand_a, hand_b);
+    const SixTouch a = alone_a.step(hand_a), b = alone_b.step(hand_b);
+    together += pair.together ? 1 : 0;
+    stuck += pair.together && a.stuck ? 1 : 0;
+    slid += n > 400 && pair.together && !(a.stuck && pair.touch_a.stuck) ? 1 : 0;
+    if (slid == 0 && a.stuck)
+      off_stuck = std::max(off_stuck, (pair.touch_a.stretch - a.stretch).norm());
+    off_b = std::max(off_b, (pair.touch_b.stretch - b.stretch).norm());
+    held = std::max(held, a.held.norm());
+    held_two = std::max(held_two, pair.touch_a.held.norm());
+    leap = std::max(leap, (a.held - before).norm());
+    leap_two = std::max(leap_two, (pair.touch_a.held - before_two).norm());
+    before = a.held;
+    before_two = pair.touch_a.held;
+  }
+  EXPECT_LT(off_stuck, 5e-6);  // the two solvers differ by rounding
+  EXPECT_LT(off_b, 1e-9);
+  EXPECT_NEAR(held_two / held, 1, 0.05);
+  // it lets go of the rims that it leaves, and never of all that it holds
+  EXPECT_LT(leap, 0.6 * held);
+  EXPECT_LT(leap_two, 0.6 * held);
+  EXPECT_GT(together, 1000);
+  EXPECT_GT(stuck, 100);
+  EXPECT_GT(slid, 100);
+}
+
+// A box rests on the bone with the load N, a ball in the other hand pushes it from the side: it does not
+// move before the push is mu N, and then the push stays at that.
+TEST(TwoTools, AToolOnTheBoneHoldsAgainstTheOtherUntilItsConeIsFull) {
+  const Scene scene = floor();
+  const double r = 1.2 * kMm, delta = 0.8 * kMm, mu = 0.4;
+  for (const double k_b : {300.0, 3000.0}) {
+    const Pose at_a = {{0, 0, 4 * kMm}, Quat::Identity()},
+               at_b = {{-2.35 * kMm - r, 0, 1.3 * kMm}, Quat::Identity()};
+    Pair pair(scene, box(), ball(r), at_a, at_b, {}, {}, 1000, k_b);
+    pair.a.set_friction({mu, mu});
+    const Pose pressed = {{0, 0, 1.3 * kMm - delta}, at_a.q};
+    for (int n = 0; n <= 400; ++n)
+      pair.step({pressed.p + Vec3(0, 0, std::max(0.0, 1 - n / 300.0) * 4 * kMm), at_a.q}, at_b);
+    const Vec3 rest = pair.a.pose().p;
+    const double most = mu * pair.k_a * delta;
+    double creep = 0, began = 0;
+    int slid = 0;
+    for (int n = 0; n < 6000; ++n) {
+      const double push = pair.k_b * pair.touch_b.stretch.norm();
+      // so that the push grows by as much in either case
+      const double x = 0.05 * kMm + 1.3 * n / 6000 * most / k_b;
+      pair.step(pressed, {at_b.p + Vec3(x, 0, 0), at_b.q});
+      const double went = (pair.a.pose().p - rest).norm();
+      if (push < 0.97 * most) creep = std::max(creep, went);
+      if (began == 0 && went > 5e-3 * kMm) began = push;
+      if (began > 0 && went < 0.05 * kMm) {
+        // it slides against friction and its own spring
+        EXPECT_NEAR(
+            (pair.k_b * pair.touch_b.stretch.norm() - pair.k_a * (pair.a.pose().p - rest).x()) /
+                most,
+            1, 0.03)
+            << k_b;
+        ++slid;
+      }
+    }
+    EXPECT_LT(creep, 1e-3 * kMm) << k_b;
+    EXPECT_NEAR(began / most, 1, 0.02) << k_b;
+    EXPECT_GT(slid, 100);
+    EXPECT_NEAR((pair.k_a * pair.touch_a.pushed + pair.k_b * pair.touch_b.pushed).norm(), 0, 1e-9);
+    // the rest of its stretch is the push of the bone and of the other tool
+    EXPECT_NEAR(pair.k_a * pair.touch_a.held.norm() / most, 1, 0.02);
+  }
+}
+
+// Hands that go round and round, pressing both tools on the bone and on each other, and then let go:
+// friction takes energy and never gives any.
+TEST(TwoTools, FrictionGivesTheHandsNoEnergy) {
+  const Scene scene = floor();
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(0.5, 1.5);
+    const Pose at_a = {{-2.5 * kMm, 0, 4 * kMm}, Quat::Identity()},
+               at_b = {{2.5 * kMm, 0, 4 * kMm}, Quat::Identity()};
+    Pair pair(scene, ball(1.5 * kMm), box(), at_a, at_b);
+    for (SixProxy* proxy : {&pair.a, &pair.b}) proxy->set_friction({0.4, 0.36});
+    const double w[4] = {any(random), any(random), any(random), any(random)};
+    constexpr int kTicks = 8000;
+    Pose hand_a = at_a, hand_b = at_b;
+    Vec3 force_a = Vec3::Zero(), force_b = Vec3::Zero();
+    double work = 0, most = 0, least = 0;
+    int met = 0, both = 0;
+    for (int n = 0; n < kTicks; ++n) {
+      const double t = 2 * M_PI * n / kTicks,
+                   down = std::sin(0.5 * t) * std::sin(0.5 * t);  // 0 at both ends
+      const Pose next_a = {at_a.p + down *
+                                        Vec3(1.6 * std::sin(9 * w[0] * t) + 0.6,
+                                             1.5 * std::sin(7 * w[1] * t), -3.2) *
+                                        kMm,
+                           at_a.q},
+                 next_b = {at_b.p + down *
+                                        Vec3(-1.2 - 0.8 * std::sin(8 * w[2] * t),
+                                             1.5 * std::cos(6 * w[3] * t), -3.4) *
+                                        kMm,
+                           at_b.q};
+      pair.step(next_a, next_b);
+      const Vec3 now_a = pair.k_a * pair.touch_a.stretch, now_b = pair.k_b * pair.touch_b.stretch;
+      work -= (0.5 * (now_a + force_a)).dot(next_a.p - hand_a.p) +
+              (0.5 * (now_b + force_b)).dot(next_b.p - hand_b.p);
+      force_a = now_a;
+      force_b = now_b;
+      hand_a = next_a;
+      hand_b = next_b;
+      const double lever = SixSettings{}.lever, stored = pair.energy(lever, lever);
+      most = std::max(most, stored);
+      least = std::min(least, work - stored);
+      met += pair.touch_a.meets ? 1 : 0;
+      both += pair.touch_a.meets && pair.touch_a.active > 0 && pair.touch_b.active > 0 ? 1 : 0;
+    }
+    EXPECT_GT(met, 1000) << seed;
+    EXPECT_GT(both, 500) << seed;
+    EXPECT_GT(work, 0.1 * most) << "friction took some";
+    EXPECT_GT(least, -0.002 * most) << seed << ": the springs never hold more than the hands gave";
+  }
+}
+
 // ---- the distance of two parts
 
 // Against the least distance of many points of one core to the other shape.

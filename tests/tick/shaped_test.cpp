@@ -296,6 +296,116 @@ TEST(RackInASession, IsRecordedByDefinitionAndReplaysToTheSameBits) {
   EXPECT_EQ(again->bone->content_hash(), bench.session->bone().content_hash());
 }
 
+// Recordings from before tools had friction lack the setting, and are replayed without it.
+TEST(RackInASession, ARecordingWithoutTheSettingOfFrictionReplaysAsItWasMade) {
+  NoProgress quiet;
+  const burr::test::Folder folder;
+  std::uint64_t hashes[2] = {};
+  for (const bool friction : {true, false}) {
+    const std::string file = folder / (friction ? "new.mcap" : "old.mcap");
+    sim::SessionSettings settings = with_tool(of_rack("osteotome"));
+    settings.servo.tool_friction = friction;
+    Bench bench(phantom::slab(), settings);
+    record::SessionInfo info;
+    sim::describe(bench.session->settings(), bench.session->hand().spec(), info);
+    ASSERT_EQ(info.numbers.count("tool_friction"), 1U);
+    if (!friction) info.numbers.erase("tool_friction");
+    info.volume.content_hash = bench.session->bone().content_hash();
+    info.volume.grid = bench.session->bone().grid();
+    info.volume.tissues = bench.session->bone().tissues();
+    info.volume.recipe.reserve_bricks = 64;
+    record::Recorder recorder(1000);
+    ASSERT_TRUE(recorder.start(file, info, &bench.session->bone()).ok());
+    bench.session->set_recorder(&recorder);
+    const Done done = work(bench, "osteotome", 600);
+    hashes[friction ? 1 : 0] = done.hash;
+    bench.session->set_recorder(nullptr);
+    ASSERT_TRUE(recorder.finish().ok());
+    auto player = record::Player::open(file);
+    ASSERT_TRUE(player.ok());
+    auto bone = (*player)->embedded_bone(64);
+    ASSERT_TRUE(bone.ok());
+    const auto again = sim::replay(**player, std::move(*bone), quiet);
+    ASSERT_TRUE(again.ok()) << again.error().text;
+    EXPECT_FALSE(again->first_different_tick)
+        << "tick " << *again->first_different_tick << ": " << again->difference;
+    EXPECT_EQ(again->ticks, 600U);
+  }
+  EXPECT_NE(hashes[0], hashes[1]) << "friction is felt: the test shows nothing otherwise";
+}
+
+// A saw vibrates along its stroke. The hand of the test does not give way, so the same session without
+// vibration has the rest of the force.
+TEST(RackInASession, ASawVibratesAlongItsStroke) {
+  for (const char* name : {"sagittal-saw", "reciprocating-saw"}) {
+    sim::SessionSettings settings = with_tool(of_rack(name));
+    settings.servo.mode = ToolMode::touch;  // both feel the same bone
+    Bench still(phantom::slab(), settings);
+    settings.servo.vibration_gain = 1;
+    Bench shakes(phantom::slab(), settings);
+    const Quat turn = held(name);
+    const Vec3 way = turn * settings.servo.tools.front().cutter.way;
+    ASSERT_LT(std::abs(way.z()), 0.1) << "along the bone";
+    double along = 0, all = 0, normal = 0;
+    int touching = 0;
+    for (int n = 0; n < 1200; ++n) {
+      const Pose pose{Vec3(0, 0.06 * kMm, (16 - 0.02 * std::min(n, 800)) * kMm), turn};
+      const Vec3 off = shakes.at(pose).contact.force - still.at(pose).contact.force;
+      ASSERT_EQ(shakes.row.contact.proxy, still.row.contact.proxy) << n;
+      if (!still.row.contact.touching || n < 900) continue;
+      ++touching;
+      all += off.squaredNorm();
+      along += std::pow(off.dot(way), 2);
+      normal += std::pow(off.dot(still.row.contact.normal), 2);
+    }
+    ASSERT_GT(touching, 200) << name;
+    EXPECT_GT(std::sqrt(all / touching), 0.01) << name << ": it is felt";
+    EXPECT_GT(along, 0.95 * all) << name;
+    EXPECT_LT(normal, 0.01 * all) << name;
+  }
+}
+
+// A hand of mass on the spring of the device, drawn over rough bone with a tool that stands, then held
+// still: friction takes energy, so what is left of the motion dies away, and nothing trembles.
+TEST(RackInASession, AHandWithMassComesToRestOnATool) {
+  constexpr double kT = 1e-3, kMass = 0.1, kArm = 400, kDamping = 4;  // kg, N/m, N s/m
+  for (const char* name : {"flame", "sagittal-saw", "osteotome", "wheel"}) {
+    sim::SessionSettings settings = with_tool(of_rack(name));
+    settings.servo.force.damping = 0;  // only friction and the arm take energy
+    Bench bench(phantom::gyroid(8 * kMm), settings);
+    const Quat turn = held(name);
+    Vec3 x(0, 0, 20 * kMm), v = Vec3::Zero();
+    double began = 0, most = 0, last = 0, fastest = 0, trembles = 0;
+    Vec3 rest = Vec3::Zero();
+    int stuck = 0;
+    for (int n = 0; n < 5000; ++n) {           // later the device would get too warm
+      const double t = std::min(n * kT, 3.0);  // the arm stops after three seconds
+      const double down = std::min(1.0, t / 1.5), way = std::max(0.0, t - 1.5);
+      const Vec3 arm(4 * kMm * std::sin(3 * way), 3 * kMm * std::sin(2 * way),
+                     (20 - 22 * down) * kMm);
+      const TickRow& row = bench.at({x, turn}, 0);
+      const Vec3 force = row.contact.force;
+      const double energy = 0.5 * kMass * v.squaredNorm() + 0.5 * kArm * (arm - x).squaredNorm() +
+                            0.5 * force.squaredNorm() / settings.servo.force.stiffness;
+      v += kT / kMass * (force + kArm * (arm - x) - kDamping * v);
+      x += kT * v;
+      ASSERT_TRUE(x.allFinite());
+      if (n == 3000) began = energy;
+      if (n >= 3000) most = std::max(most, energy);
+      if (n >= 1500) fastest = std::max(fastest, v.norm());
+      if (n == 4000) rest = x;
+      if (n >= 4000) trembles = std::max(trembles, (x - rest).norm());
+      last = energy;
+      stuck += row.contact.touching ? 1 : 0;
+    }
+    EXPECT_GT(stuck, 2500) << name;
+    EXPECT_LT(most, 1.01 * began) << name << ": energy does not grow once the arm is still";
+    EXPECT_LT(last, 1.002 * began) << name;
+    EXPECT_LT(trembles, 2e-6) << name;
+    EXPECT_LT(fastest, 0.3) << name << ": it slips, but is not thrown";
+  }
+}
+
 TEST(RackInASession, ATooCoarseBoneAndAnotherLawAreRefusedWithTheRemedy) {
   NoProgress quiet;
   const auto refused = [&](sim::SessionSettings settings, double voxel) {

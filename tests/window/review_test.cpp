@@ -19,9 +19,13 @@
 #include <vector>
 
 #include "burr/record/player.h"
+#include "burr/school/pending.h"
+#include "burr/school/sessions.h"
+#include "burr/school/store.h"
 #include "report/marked.h"
 #include "report/questions.h"
 #include "user.h"
+#include "window/review/enter_session.h"
 #include "window/review/self_marks_page.h"
 #include "window/start/sessions.h"
 #include "window/start/start_page.h"
@@ -52,6 +56,7 @@ class ReviewWindow : public Window {
     PagesOptions options;
     options.sound = false;
     options.led.identity.mode = mode;
+    options.led.identity.learner = learner_;
     const Status done = run_pages(*desk_, options);
     desk_->after_frame = {};
     EXPECT_TRUE(done) << done.error().text;
@@ -76,6 +81,7 @@ class ReviewWindow : public Window {
     for (Script::Step& one : more) steps.push_back(std::move(one));
   }
   [[nodiscard]] std::vector<KeptSession> kept() const { return kept_sessions(folder_ / "state"); }
+  std::string learner_;
 };
 
 // By the rubric that the case names, which lies beside it.
@@ -168,6 +174,60 @@ TEST_F(ReviewWindow, EnterGoesOnAndAReportThatIsNotWaitedForIsWritten) {
   EXPECT_EQ(goes_on, say(Word::review_goes_on, page));
   EXPECT_EQ(written, say(Word::review_written, page));
   EXPECT_TRUE(fs::exists(page));
+}
+
+// It waits while the store is locked, and is taken in at the next start.
+TEST_F(ReviewWindow, TheSessionOfALearnerComesIntoTheStoreByItself) {
+  desk_->store = folder_ / "school.sqlite";
+  const auto place = school::place_of(desk_->store, desk_->places());
+  ASSERT_TRUE(place) << place.error().text;
+  auto store = school::Store::open(*place);
+  ASSERT_TRUE(store) << store.error().text;
+  school::Learner learner;
+  learner.id = learner_ = "kestrel-27";
+  ASSERT_TRUE(school::add(**store, learner, {}));
+  ASSERT_TRUE((*store)->database().begin());  // another program writes
+  auto steps = cut();
+  add(steps, done());
+  std::string told_of;
+  add(steps, {{"own marks", on(Page::self_marks), nullptr},
+              {"a picture", looks(5), [] { click(100, 162); }},  // the first item: met
+              {"a picture", looks(5), [] { press(SDLK_RETURN); }},
+              {"the end", on(Page::review), [] { press(SDLK_ESCAPE); }},
+              {"the start page", on(Page::start), nullptr},
+              {"it waits", [&] { return !desk_->told.empty(); },
+               [&] {
+                 told_of = desk_->told;
+                 press(SDLK_ESCAPE);
+               }}});
+  work_by(record::Mode::exam, std::move(steps));
+  EXPECT_NE(told_of.find("another program writes"), std::string::npos) << told_of;
+  std::vector<std::string> notices;
+  const auto waits = school::waiting(*place, notices);
+  ASSERT_EQ(waits.size(), 1U);
+  ASSERT_TRUE(waits[0].session) << "it is scored already";
+  EXPECT_EQ(waits[0].session->learner, "kestrel-27");
+  (*store)->database().rollback();
+
+  enter_waiting(*desk_);
+  learner_.clear();
+  const auto there = [&] {
+    const auto rows = school::sessions_of(**store, "kestrel-27");
+    return rows && rows->size() == 1;
+  };
+  work_by(record::Mode::free, {{"the session", there, [] { press(SDLK_ESCAPE); }}});
+  EXPECT_TRUE(school::waiting(*place, notices).empty());
+  const auto rows = school::sessions_of(**store, "kestrel-27");
+  ASSERT_TRUE(rows && rows->size() == 1);
+  EXPECT_TRUE(rows->front().finished);
+  EXPECT_FALSE(rows->front().guided);
+  EXPECT_EQ(rows->front().mode, "exam");
+  const auto items = school::items_of(**store, rows->front().id);
+  ASSERT_TRUE(items) << items.error().text;
+  EXPECT_FALSE(items->empty());
+  EXPECT_EQ(std::count_if(items->begin(), items->end(),
+                          [](const auto& one) { return one.self_mark == "met"; }),
+            1);
 }
 
 // A scan of one's own has no steps: what guides through them ends with the case.

@@ -36,6 +36,7 @@
 #include "commands/work.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/window.h"
+#include "window/review/enter_session.h"
 #include "window/review/review.h"
 #include "window/shell/loading.h"
 #include "window/shell/pages.h"
@@ -51,7 +52,7 @@ constexpr double kHeadlessSeconds = 20;
 
 struct Options {
   WorkOptions work;
-  std::string out, screenshot;
+  std::string out, screenshot, store;
   double seconds = 0;
   bool headless = false, no_sound = false, xr = false, force = false;
 };
@@ -252,6 +253,8 @@ Result<Closed> mill_into_folder(Desk& desk, Ready& ready, const Options& options
       recording.start(session, file, ready.volume, ready.import, session.hand().spec().name, false,
                       ready.spared, ready.work_case);
   if (!begun) return begun.error();
+  const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
+  session_begins(desk, file, options.work.identity, work);
   WindowOptions told = window;
   told.warning = [&recording] { return recording.trouble(); };
   told.keep = [] { return true; };  // this run is recorded already
@@ -268,6 +271,7 @@ Result<Closed> mill_into_folder(Desk& desk, Ready& ready, const Options& options
   if (done) stays = ask_own_marks(desk, ready, *told.diary, window);
   const Status recorded = recording.finish(session);
   if (!left) return left.error();
+  session_ended(desk, file, options.work.identity, work, recorded.ok());
   const Status written = write_session(options, ready, before, recorded);
   if (!written) return written.error();
   if (!stays) return stays.error();
@@ -313,6 +317,8 @@ Status run_in_window(Options options) {
   }
   auto desk = Desk::open(users_places());
   if (!desk) return desk.error();
+  (*desk)->store = options.store;
+  enter_waiting(**desk);
   (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
   if (options.work.volume.source.empty())
     return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound,
@@ -392,6 +398,11 @@ void add(CLI::App& app, Todo& todo) {
                    "can watch and record it (ROS 2)")
       ->excludes("--headless");
   add_identity_options(*command, options->work.identity);
+  command
+      ->add_option("--store", options->store,
+                   "the store of learners for sessions with --learner (docs/school.md; default: "
+                   "BURR_STORE, or the one in burr's data folder if it is there)")
+      ->excludes("--headless");
   add_bone_option(*command, options->work.bone);
   add_volume_options(*command, options->work.volume);
   command->callback([options, touch, &todo] {

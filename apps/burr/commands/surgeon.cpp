@@ -25,6 +25,7 @@
 #include "burr/workshop/spared.h"
 #include "commands/bone_option.h"
 #include "commands/command.h"
+#include "commands/identity_options.h"
 #include "commands/interrupt.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
@@ -41,6 +42,7 @@ constexpr double kFieldOfView = 0.2;  // of the recorded view, as through a micr
 
 struct Options {
   std::string work_case, level = "expert", record;
+  record::Identity identity;
   std::uint32_t bone = 0;
   std::vector<std::string> vices;
   scenario::Recipe volume;
@@ -203,6 +205,7 @@ Status run(const Options& options) {
   sim::Session& session = **begun;
 
   Recording recording;
+  recording.belongs_to(options.identity);
   if (!options.record.empty()) {
     const Status started = recording.start(
         session, options.record, prepared->recipe, prepared->summary, "scripted surgeon",
@@ -244,6 +247,7 @@ void add(CLI::App& app, Todo& todo) {
       ->check(CLI::Range(0.0, 36'000.0));
   command->add_option("--record", options->record, "F.mcap: record the session");
   command->add_flag("--embed", options->embed, "with --record: store the bone in the file");
+  add_identity_options(*command, options->identity);
   add_force(*command, options->force);
   command->add_flag("--json", options->json, "one JSON object on the last line");
   add_volume_options(*command, options->volume);

@@ -18,7 +18,7 @@ std::filesystem::path folder(const char* variable, const char* in_home) {
 
 DeskPlaces users_places() {
   return {folder("XDG_CONFIG_HOME", ".config"), folder("XDG_STATE_HOME", ".local/state"),
-          folder("XDG_CACHE_HOME", ".cache")};
+          folder("XDG_CACHE_HOME", ".cache"), folder("XDG_DATA_HOME", ".local/share")};
 }
 
 }  // namespace burr

@@ -8,6 +8,7 @@ namespace burr {
 // An empty folder: that is not kept.
 struct DeskPlaces {
   std::filesystem::path config, state, cache;
+  std::filesystem::path data = {};  // what must not be lost: the store of learners
 };
 // By the XDG base directories: ~/.config/burr and so on.
 [[nodiscard]] DeskPlaces users_places();

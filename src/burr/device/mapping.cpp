@@ -66,7 +66,9 @@ HandState MappedHand::state(double dt) BURR_RT {
   const bool lifted = asleep || (hand.buttons & kLifted) != 0 ||
                       lifted_.load(std::memory_order_relaxed) || down(settings_.clutch_button);
   if (turns_.take(requested_axes_)) requested_ = requested_axes_ * settings_.axes;
-  const bool rests = forced_ == Vec3::Zero() && twisted_ == Vec3::Zero();
+  const bool grips = carries_.load(std::memory_order_relaxed) && !lifted &&
+                     (down(settings_.mill_button) || foot > 0 || hand.pedal > 0);
+  const bool rests = !grips && forced_ == Vec3::Zero() && twisted_ == Vec3::Zero();
   const bool turns = rests && turn_.coeffs() != requested_.coeffs();
   if (lifted || !anchored_ || turns) {
     at_ = tip_;

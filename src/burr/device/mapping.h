@@ -8,7 +8,7 @@
 // show. Turning is not scaled. A move in the world does scale times the work of the hand's move; so
 // that a turn does too, a torque of the world is felt divided by scale (DeviceSpec::scale; the tick
 // divides), and the device's numbers of turning are multiplied by it. Turning the view turns the
-// hand's axes as soon as force and torque are zero; it never moves the tip.
+// hand's axes as soon as force and torque are zero, and nothing is carried; it never moves the tip.
 //
 // Thread: set_axes() main; lift() any; the rest as Device. Frames: inside, the device's own as its
 // driver states it, x right, y up, z to the user; outside, world (LPS).
@@ -42,6 +42,9 @@ class MappedHand final : public Device {
   void set_axes(const math::Quat& world_from_hand) { turns_.publish(world_from_hand); }
   // Lifts the hand from outside, in addition to the button: by a pedal or a key.
   void lift(bool lifted) BURR_RT { lifted_.store(lifted, std::memory_order_relaxed); }
+  // While it carries something by its pedal or mill button, the axes wait until both are let go, or
+  // what is carried would turn at once.
+  void carry(bool carries) { carries_.store(carries, std::memory_order_relaxed); }
   // Sets the foot pedal, 0..1. The larger of it and the mill button's value counts.
   void press(double pedal) BURR_RT { pedal_.store(pedal, std::memory_order_relaxed); }
 
@@ -73,7 +76,7 @@ class MappedHand final : public Device {
   MappingSettings settings_;
   DeviceSpec spec_;
   rt::Latest<math::Quat> turns_;
-  std::atomic<bool> lifted_ = false;
+  std::atomic<bool> lifted_ = false, carries_ = false;
   std::atomic<double> pedal_ = 0;
 
   // used only on the servo

@@ -32,6 +32,7 @@
 
 #include "burr/base/result.h"
 #include "burr/record/course.h"
+#include "burr/record/recording_stats.h"
 #include "burr/record/session_info.h"
 #include "burr/record/view.h"
 #include "burr/rt/ring.h"
@@ -39,19 +40,6 @@
 #include "burr/volume/bone.h"
 
 namespace burr::record {
-
-// Counts of what was written and what was not.
-struct RecordingStats {
-  std::uint64_t ticks = 0, commands = 0, brick_rows = 0, keyframes = 0;
-  std::uint64_t views = 0, events = 0;  // messages of /view and /course
-  std::uint64_t dropped_ticks = 0, dropped_commands = 0, dropped_bricks = 0, dropped_notes = 0;
-  std::uint64_t written_ticks = 0;  // of the ticks, those given to the kernel: what the file holds
-  std::uint64_t bytes = 0;          // of the file
-  double longest_pause_s = 0;  // between two chunks given to the kernel; a kill may lose as much
-  [[nodiscard]] bool whole() const {
-    return dropped_ticks == 0 && dropped_commands == 0 && dropped_bricks == 0 && dropped_notes == 0;
-  }
-};
 
 class Recorder {
  public:

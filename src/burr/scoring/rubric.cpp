@@ -227,6 +227,7 @@ Result<Rubric> parse_rubric(std::string_view text, std::string_view file) {
   Reader reader(*table, std::string(file), "", wrong);
   Rubric out;
   out.file = file;
+  out.text = text;
   out.text_hash = scenario::text_hash(text);
   reader.only({"rubric", "item"});
   if (!reader.has("rubric")) reader.fail("rubric", "is missing; begin with [rubric]");

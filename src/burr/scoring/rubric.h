@@ -50,7 +50,8 @@ struct Rubric {
   // it is from its own folder.
   std::string case_source;
   int version = 1;
-  std::uint64_t text_hash = 0;  // scenario::text_hash() of its text
+  std::string text;             // the file
+  std::uint64_t text_hash = 0;  // scenario::text_hash() of it
   std::vector<Item> items;
 
   [[nodiscard]] const Item* item(std::string_view id) const;  // nullptr: there is none

@@ -15,6 +15,7 @@
 #include "window/import/notice_words.h"
 #include "window/mill/window.h"
 #include "window/replay/playback.h"
+#include "window/review/enter_session.h"
 #include "window/review/review.h"
 #include "window/shell/loading.h"
 #include "window/shell/words.h"
@@ -89,6 +90,11 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
     autosave =
         std::make_unique<Autosave>(desk.places().state, ready, options, embed, desk.settings);
   }
+  // a session that goes on with an older one is the second part only
+  const bool enters = autosave && autosave->diary() != nullptr && !embed;
+  const std::string file = enters ? autosave->file().string() : std::string();
+  const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
+  if (enters) session_begins(desk, file, options.identity, work);
   WindowOptions with = window;
   with.diary = autosave ? autosave->diary() : nullptr;
   with.done_ends = !embed && ready.work_case && has_marks(*ready.work_case);
@@ -110,6 +116,7 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
   if (done) stays = ask_own_marks(desk, ready, *with.diary, window);
   if (autosave)
     if (const Status kept = autosave->finish(); !kept) desk.lost = kept;
+  if (enters) session_ended(desk, file, options.identity, work, !autosave->kept_file().empty());
   if (!done) return left;
   if (!stays) return stays.error();
   if (!*stays) return Closed::window;

@@ -37,7 +37,10 @@ class ShaftTouch final : public TouchMethod {
   [[nodiscard]] Touch step(const math::Vec3& hand) BURR_RT override;
   [[nodiscard]] Touch step_pose(const math::Pose& hand) BURR_RT override;
   // nullptr: the shaft has not been free yet.
-  [[nodiscard]] SixProxy* six() BURR_RT override { return shaft_ ? &six_ : nullptr; }
+  [[nodiscard]] SixProxy* six() BURR_RT override {
+    six_.set_friction(friction_);  // for a tick with another tool; step_pose() sets its own
+    return shaft_ ? &six_ : nullptr;
+  }
   [[nodiscard]] Touch felt(const SixTouch& six, const math::Pose& hand) BURR_RT override;
   [[nodiscard]] const ToolContact& shaft() const BURR_RT { return contact_; }
   [[nodiscard]] const ToolContact* parts() const BURR_RT override { return &contact_; }

@@ -12,9 +12,12 @@ constexpr int kSteps = 8;            // towards the root of one ellipsoid
 constexpr double kRoot = 1e-5;       // of the size of what slides                            [-]
 constexpr double kSameWay = 1e-4;    // square of the sine between two directions             [-]
 constexpr double kDependent = 1e-6;  // share of a row that is square to those before, squared [-]
-constexpr double kRidge = 1e-7;      // of a Gram matrix: directions in which nothing presses   [-]
-constexpr double kStiff = 1e8;       // what is held so well does not creep                    [-]
-constexpr double kSlow = 0.02;       // of the mean slide: a place near the axis of the turn    [-]
+// The same of a row on which the tool rests: an edge that is rounded off touches with a normal that is
+// tilted by some thousandths, and that is no wall across the slide.
+constexpr double kTilted = 1e-3;
+constexpr double kRidge = 1e-7;  // of a Gram matrix: directions in which nothing presses   [-]
+constexpr double kStiff = 1e8;   // what is held so well does not creep                    [-]
+constexpr double kSlow = 0.02;   // of the mean slide: a place near the axis of the turn    [-]
 // A tool that slides sticks again below this share of the sliding cone, as the ball's does.
 constexpr double kSticksAgain = 0.6;
 
@@ -203,7 +206,7 @@ void rest_on(std::span<const Six> rows, Pressed& pressed) BURR_RT {
     // twice: the second time takes away what rounding left
     Six way = along_bone(pressed, along_bone(pressed, row));
     const double square = dot6(way, way);
-    if (!(square > kDependent * dot6(row, row)) || pressed.rows == 6) continue;
+    if (!(square > kTilted * dot6(row, row)) || pressed.rows == 6) continue;
     const double over = 1 / std::sqrt(square);
     for (double& one : way) one *= over;
     pressed.row[static_cast<std::size_t>(pressed.rows++)] = way;

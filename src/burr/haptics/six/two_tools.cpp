@@ -23,6 +23,8 @@ constexpr double kMargin = 0.2e-3;  // tools this near are solved together      
 constexpr int kRounds = 10;
 constexpr double kLeastMove = 0.02;  // [voxel]
 constexpr double kRest = 0.1;        // of a move left over that counts as rest          [voxel]
+constexpr int kHoldMoves = 3;        // to where friction holds the tools, in a round
+constexpr int kHoldRounds = 4;       // of finding how much it holds
 
 using Twelve = std::array<double, 12>;
 
@@ -204,7 +206,9 @@ bool TwoTools::near(const HeldTool& a, const HeldTool& b) BURR_RT {
   };
   const double gap = least_gap(a.proxy, b.proxy);
   apart_ = apart_ || gap >= 0;
-  return apart_ && gap < kMargin / a.proxy.grid_.voxel + may_go(a) + may_go(b);
+  const bool near = apart_ && gap < kMargin / a.proxy.grid_.voxel + may_go(a) + may_go(b);
+  if (!near) rests_a_ = rests_b_ = {};
+  return near;
 }
 
 // ---- the programme
@@ -387,6 +391,140 @@ void TwoTools::move(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wa
   twist.cut_short = true;
 }
 
+// Both go towards their goals as far as the bone and the other tool let them. Returns how long the
+// last move was.  [voxel]
+double TwoTools::seek(SixProxy& a, SixProxy& b, const math::Pose& goal_a, const math::Pose& goal_b,
+                      int most, Guesses& guess, Twist& twist, SixTouch& touch_a,
+                      SixTouch& touch_b) BURR_RT {
+  twist = {};
+  twist.cut_short = true;
+  double left = 1;
+  const double close = a.settings_.close / a.grid_.voxel;
+  for (int moves = 0; moves < most;) {
+    move(a, b, a.wanted(goal_a.p, goal_a.q), b.wanted(goal_b.p, goal_b.q), guess.a, guess.b, twist,
+         touch_a, touch_b);
+    if (moves++ == 0) guess.first_a = guess.a, guess.first_b = guess.b;
+    guess.moves = moves;
+    if (!twist.solved) break;
+    a.go(twist.a);
+    b.go(twist.b);
+    left = std::sqrt(dot6(twist.a, twist.a) + dot6(twist.b, twist.b));
+    const int active = twist.bone_a.active + twist.bone_b.active + twist.meets;
+    if (!twist.cut_short && (left < close || active == 0)) break;
+  }
+  return left;
+}
+
+// One tool of the two on the bone.
+struct TwoTools::Rubbing {
+  SixProxy& proxy;
+  Rest& rest;
+  math::Pose hand;  // p_grid
+  Grip was, held;
+  bool rubs;
+
+  // then: the tool a tick ago; now: the hand
+  Rubbing(SixProxy& which, Rest& at, const math::Pose& then, const math::Pose& now,
+          const LeastTwist& bone, bool solved) BURR_RT : proxy(which),
+                                                         rest(at),
+                                                         hand(now),
+                                                         was(which.grip_) {
+    proxy.grip_ = {};
+    rubs = solved && bone.active > 0 && proxy.friction_.sticks > 0 &&
+           proxy.press(bone, proxy.wanted(hand.p, hand.q));
+    if (!rubs) rest = {};
+    if (!rubs) return;
+    held.f = was.f;
+    if (!rest.known) rest = {then, true};
+  }
+  // As if the hand were where friction holds the tool with its spring.
+  [[nodiscard]] math::Pose goal() const BURR_RT {
+    const Six& f = held.f;
+    return {hand.p + Vec3(f[0], f[1], f[2]),
+            math::turned(hand.q, Vec3(f[3], f[4], f[5]) / proxy.lever_)};
+  }
+  // Returns how much the hold changed.  [voxel]
+  double improve() BURR_RT {
+    if (!rubs) return 0;
+    Six towards = proxy.wanted(rest.at.p, rest.at.q);
+    for (std::size_t k = 0; k < 6; ++k) towards[k] += held.f[k];
+    const Six last = held.f;
+    held = hold(*proxy.pressed_, proxy.friction_, towards, was);
+    double change = 0;
+    for (std::size_t k = 0; k < 6; ++k) change += (held.f[k] - last[k]) * (held.f[k] - last[k]);
+    return std::sqrt(change);
+  }
+  void report(SixTouch& touch) const BURR_RT {
+    if (!rubs) return;
+    proxy.grip_ = held;
+    rest.known = held.whole;
+    const Six& f = held.f;
+    const Quat& frame = proxy.grid_.frame.q;
+    touch.stuck = held.stuck;
+    touch.held = frame * Vec3(Vec3(f[0], f[1], f[2]) * proxy.grid_.voxel);
+    touch.held_turn = frame * Vec3(Vec3(f[3], f[4], f[5]) / proxy.lever_);
+  }
+};
+
+// How friction holds one tool changes how hard it is pushed by the other. So what holds it is sought
+// in rounds: f is the nearest to f + (rest - now) that its places can give. An error shrinks in a round by the
+// other tool's share of the pair's stiffness, and the next tick goes on from there; so a tool that is
+// held is drawn to the place where it first was, not to that of the tick before, or it would creep.
+void TwoTools::rub(Rubbing& one, Rubbing& other, Guesses& guess, Twist& twist, SixTouch& touch_a,
+                   SixTouch& touch_b) BURR_RT {
+  if (!one.rubs && !other.rubs) return;
+  const double close = one.proxy.settings_.close / one.proxy.grid_.voxel;
+  const auto go = [&]() BURR_RT {
+    Twist to;
+    static_cast<void>(seek(one.proxy, other.proxy, one.goal(), other.goal(), kHoldMoves, guess, to,
+                           touch_a, touch_b));
+    if (to.solved) twist = to;
+    return to.solved;
+  };
+  if (!go()) return;
+  for (int round = 0; round < kHoldRounds; ++round) {
+    const Grip last = one.held, last_of_other = other.held;
+    const double change = one.improve() + other.improve();
+    if (round > 0 && change < close) {  // not in the first round: slow slides are as short as that
+      one.held = last;
+      other.held = last_of_other;
+      return;
+    }
+    if (!go()) return;
+  }
+}
+
+// Friction of each by itself, where the tools rest on the bone only. False: it would draw one into the
+// other; then nothing has changed.
+bool TwoTools::rub_alone(SixProxy& a, SixProxy& b, const math::Pose& before_a,
+                         const math::Pose& before_b, const math::Pose& goal_a,
+                         const math::Pose& goal_b, const Twist& twist, SixTouch& touch_a,
+                         SixTouch& touch_b) BURR_RT {
+  const math::Pose at_a{a.c_, a.r_}, at_b{b.c_, b.r_};
+  const Grip grip_a = a.grip_, grip_b = b.grip_;
+  const SixTouch was_a = touch_a, was_b = touch_b;
+  a.report(twist.bone_a, goal_a.p, goal_a.q, touch_a);
+  b.report(twist.bone_b, goal_b.p, goal_b.q, touch_b);
+  // rows of the last move: solved as far as twist says
+  LeastTwist bone_a = twist.bone_a, bone_b = twist.bone_b;
+  bone_a.solved = bone_b.solved = twist.solved;
+  a.rub(bone_a, before_a, goal_a.p, goal_a.q, touch_a);
+  b.rub(bone_b, before_b, goal_b.p, goal_b.q, touch_b);
+  if (least_gap(a, b) >= 0) {
+    rests_a_ = rests_b_ = {};
+    return true;
+  }
+  a.c_ = at_a.p;
+  a.r_ = at_a.q;
+  b.c_ = at_b.p;
+  b.r_ = at_b.q;
+  a.grip_ = grip_a;
+  b.grip_ = grip_b;
+  touch_a = was_a;
+  touch_b = was_b;
+  return false;
+}
+
 void TwoTools::step(const HeldTool& a, const HeldTool& b, SixTouch& touch_a,
                     SixTouch& touch_b) BURR_RT {
   weight_ = std::sqrt(std::max(b.stiffness, 1e-9) / std::max(a.stiffness, 1e-9));
@@ -397,33 +535,29 @@ void TwoTools::step(const HeldTool& a, const HeldTool& b, SixTouch& touch_a,
   };
   const math::Pose goal_a = goal(a), goal_b = goal(b);
   SixProxy &one = a.proxy, &other = b.proxy;
+  const math::Pose before_a{one.c_, one.r_}, before_b{other.c_, other.r_};
   touch_a = touch_b = {};
-  SixProxy::Limits guess_a = one.last_, guess_b = other.last_;
+  Guesses guess{one.last_, other.last_, one.last_, other.last_};
   Twist twist;
-  twist.cut_short = true;
-  double left = 1;
-  const double close = one.settings_.close / one.grid_.voxel;
   const int most = std::min(one.settings_.max_moves, other.settings_.max_moves);
-  for (int moves = 0; moves < most;) {
-    move(one, other, one.wanted(goal_a.p, goal_a.q), other.wanted(goal_b.p, goal_b.q), guess_a,
-         guess_b, twist, touch_a, touch_b);
-    if (moves++ == 0) {
-      one.last_ = guess_a;
-      other.last_ = guess_b;
-    }
-    touch_a.moves = touch_b.moves = moves;
-    if (!twist.solved) break;
-    one.go(twist.a);
-    other.go(twist.b);
-    left = std::sqrt(dot6(twist.a, twist.a) + dot6(twist.b, twist.b));
-    const int active = twist.bone_a.active + twist.bone_b.active + twist.meets;
-    if (!twist.cut_short && (left < close || active == 0)) break;
-  }
+  const double left = seek(one, other, goal_a, goal_b, most, guess, twist, touch_a, touch_b);
+  one.last_ = guess.first_a;
+  other.last_ = guess.first_b;
+  touch_a.moves = touch_b.moves = guess.moves;
   const bool rests = twist.bone_a.active + twist.bone_b.active + twist.meets > 0;
   const bool lags = !twist.solved || twist.cut_short || (rests && left > kRest);
   touch_a.lagging = touch_b.lagging = lags;
+  const bool rubs = one.friction_.sticks > 0 || other.friction_.sticks > 0;
+  if (rubs && twist.meets == 0 &&
+      rub_alone(one, other, before_a, before_b, goal_a, goal_b, twist, touch_a, touch_b))
+    return;
+  Rubbing rubs_a(one, rests_a_, before_a, goal_a, twist.bone_a, twist.solved),
+      rubs_b(other, rests_b_, before_b, goal_b, twist.bone_b, twist.solved);
+  rub(rubs_a, rubs_b, guess, twist, touch_a, touch_b);
   one.report(twist.bone_a, goal_a.p, goal_a.q, touch_a);
   other.report(twist.bone_b, goal_b.p, goal_b.q, touch_b);
+  rubs_a.report(touch_a);
+  rubs_b.report(touch_b);
   touch_a.meets = touch_b.meets = twist.meets > 0;
   const Vec3 pushed = one.grid_.frame.q * Vec3(twist.pushed * one.grid_.voxel);
   touch_a.pushed = pushed;

@@ -10,6 +10,9 @@
 //
 //     N = delta / (1 / k_a + l_a^2 / k_ra + 1 / k_b + l_b^2 / k_rb)       l: levers about the couplings
 //
+// Friction holds each tool on the bone as if it were alone (six_friction.h). Between the two tools there
+// is none: docs/touch.md, "Two tools".
+//
 // While no pair can meet in this tick, each tool is solved alone, to the bit as without the other. Two
 // tools that overlap when they are taken up are not felt until they have been apart once.
 //
@@ -37,7 +40,10 @@ class TwoTools {
   // Both are held, and may meet in this tick: then step() is to be called in place of their own.
   [[nodiscard]] bool near(const HeldTool& a, const HeldTool& b) BURR_RT;
   // One of them is not held.
-  void part() BURR_RT { apart_ = false; }
+  void part() BURR_RT {
+    apart_ = false;
+    rests_a_ = rests_b_ = {};
+  }
   // One tick of both.
   void step(const HeldTool& a, const HeldTool& b, SixTouch& touch_a, SixTouch& touch_b) BURR_RT;
 
@@ -50,6 +56,11 @@ class TwoTools {
     double gap = 0;
   };
   struct Twist;  // the solution of one programme
+  struct Rubbing;
+  struct Guesses {  // how far a move goes: the next one, and the first of a search
+    SixProxy::Limits a, b, first_a, first_b;
+    int moves = 0;
+  };
 
   void find_pairs(const SixProxy& a, const SixProxy& b) BURR_RT;
   void add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b) BURR_RT;
@@ -63,11 +74,23 @@ class TwoTools {
   void move(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wanted_b,
             SixProxy::Limits& guess_a, SixProxy::Limits& guess_b, Twist& twist, SixTouch& touch_a,
             SixTouch& touch_b) BURR_RT;
+  double seek(SixProxy& a, SixProxy& b, const math::Pose& goal_a, const math::Pose& goal_b,
+              int most, Guesses& guess, Twist& twist, SixTouch& touch_a, SixTouch& touch_b) BURR_RT;
+  bool rub_alone(SixProxy& a, SixProxy& b, const math::Pose& before_a, const math::Pose& before_b,
+                 const math::Pose& goal_a, const math::Pose& goal_b, const Twist& twist,
+                 SixTouch& touch_a, SixTouch& touch_b) BURR_RT;
+  void rub(Rubbing& one, Rubbing& other, Guesses& guess, Twist& twist, SixTouch& touch_a,
+           SixTouch& touch_b) BURR_RT;
 
   std::array<Pair, kMostPairs> pairs_;
   int count_ = 0;
   double weight_ = 1;   // square root of k_b / k_a
   bool apart_ = false;  // they have been, since both are held
+  // Where friction holds each tool, as long as it holds it whole and the tools are near.  p_grid
+  struct Rest {
+    math::Pose at;
+    bool known = false;
+  } rests_a_, rests_b_;
 };
 
 }  // namespace burr::haptics

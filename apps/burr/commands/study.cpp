@@ -1,0 +1,467 @@
+// `burr study`: what a centre must know of its marks before it decides by them - reliability, agreement of raters, cuts,
+// learning curves. From tables (CSV), so also from marks that burr did not give.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/base/printable.h"
+#include "burr/school/study/curve.h"
+#include "burr/school/study/raters.h"
+#include "burr/school/study/reliability.h"
+#include "burr/school/study/standards.h"
+#include "burr/school/study/table.h"
+#include "commands/command.h"
+#include "commands/json_line.h"
+
+namespace burr::app {
+namespace {
+
+namespace study = school::study;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string path, method = "contrasting", marks;
+  int occasions = 5;
+  unsigned long seed = 1;
+  bool bones = false, json = false;
+};
+
+Json interval(const study::Interval& of) { return {of.low, of.high}; }
+
+// ---- reliability
+
+void print(const study::Reliability& of, const study::Balanced& used, const study::Interval& g_95) {
+  fmt::print("{} learners, the last {} marks of each{}\n", of.persons, of.occasions,
+             of.bones > 1 ? fmt::format(" on each of {} bones", of.bones) : "");
+  if (used.left_out > 0) fmt::print("{} learners with fewer marks were left out\n", used.left_out);
+  const std::pair<const char*, const study::Component*> parts[] = {
+      {"learners", &of.person},
+      {"bones", &of.bone},
+      {"occasions", &of.occasion},
+      {"learner and bone", &of.person_bone},
+      {"what is left", &of.residual}};
+  double all = 0;
+  for (const auto& [name, part] : parts) all += part->variance;
+  fmt::print("{:<18} {:>10} {:>8}\n", "variance", "", "share");
+  for (const auto& [name, part] : parts)
+    if (part->freedom > 0)
+      fmt::print("{:<18} {:>10.4g} {:>6.0f} %{}\n", name, part->variance,
+                 all > 0 ? 100 * part->variance / all : 0,
+                 part->raw < 0 ? "  (the estimate is below 0)" : "");
+  fmt::print("marks{}  G      Phi    standard error of their mean\n",
+             of.bones > 1 ? " on each bone" : "");
+  for (const int n : {1, 2, 3, 5, 8, 12})
+    fmt::print("{:>5}{}  {:.2f}   {:.2f}   {:.3g}\n", n, of.bones > 1 ? "             " : "",
+               of.g(n, of.bones), of.phi(n, of.bones), of.standard_error(n, of.bones));
+  fmt::print("G of {} marks: {:.2f} (95 %: {:.2f} to {:.2f})\n", of.occasions,
+             of.g(of.occasions, of.bones), g_95.low, g_95.high);
+  if (const auto n = of.enough(0.8, of.bones))
+    fmt::print(
+        "G exceeds 0.8 from {} marks{} on. Fewer are too few for a decision about a person.\n", *n,
+        of.bones > 1 ? " on each bone" : "");
+  else
+    fmt::print(
+        "Even 100 marks do not reach G = 0.8: these marks do not tell the learners apart.\n");
+}
+
+Status reliability(const Options& options) {
+  auto table = study::read_table(options.path, {"learner", "mark"}, {"bone", "guided"});
+  if (!table) return table.error();
+  std::vector<study::Mark> marks;
+  for (std::size_t n = 0; n < table->rows.size(); ++n) {
+    if (!table->rows[n][3].empty()) {
+      const auto guided = table->flag(n, 3);
+      if (!guided) return guided.error();
+      if (*guided) continue;
+    }
+    const auto mark = table->number(n, 1);
+    if (!mark) return mark.error();
+    marks.push_back({table->rows[n][0], table->rows[n][2], *mark});
+  }
+  const auto used = study::balance(marks, options.occasions, options.bones);
+  if (!used)
+    return error(used.error().trouble, fmt::format("{}: {}", table->file, used.error().text));
+  const study::Reliability out = study::reliability(*used);
+  const study::Interval g_95 = study::interval_of_g(*used, options.occasions, 2000, options.seed);
+  if (!options.json) {
+    print(out, *used, g_95);
+    return fine();
+  }
+  Json json = {{"learners", out.persons},
+               {"left_out", used->left_out},
+               {"marks", out.occasions},
+               {"bones", out.bones}};
+  for (const auto& [name, part] : {std::pair{"learner", &out.person},
+                                   {"bone", &out.bone},
+                                   {"occasion", &out.occasion},
+                                   {"learner_bone", &out.person_bone},
+                                   {"residual", &out.residual}})
+    json["variance"][name] = part->variance;
+  for (int n = 1; n <= 20; ++n)
+    json["of"].push_back({{"marks", n},
+                          {"g", out.g(n, out.bones)},
+                          {"phi", out.phi(n, out.bones)},
+                          {"standard_error", out.standard_error(n, out.bones)}});
+  json["g_95"] = interval(g_95);
+  const auto enough = out.enough(0.8, out.bones);
+  json["enough"] = enough ? Json(*enough) : Json(nullptr);
+  fmt::print("{}\n", json_line(json));
+  return fine();
+}
+
+// ---- raters
+
+void print(const study::RaterStudy& of) {
+  fmt::print("{:<24} {:<24} {:>8} {:>10} {:>26} {:>6} {:>11}\n", "item", "raters", "products",
+             "agreement", "kappa (95 %)", "AC1", "prevalence");
+  for (const study::ItemAgreement& one : of.pairs) {
+    const study::Agreement& f = one.figures;
+    const std::string kappa = f.kappa ? fmt::format("{:.2f} ({:.2f} to {:.2f})", *f.kappa,
+                                                    f.kappa_95.low, f.kappa_95.high)
+                                      : "none";
+    fmt::print("{:<24} {:<24} {:>8} {:>8.0f} % {:>26} {:>6.2f} {:>11.2f}\n",
+               one.item.empty() ? "all items" : base::printable(one.item),
+               base::printable(one.first) + ", " + base::printable(one.second), f.products,
+               100 * f.agreement, kappa, f.ac1, f.prevalence_index);
+  }
+  if (of.icc)
+    fmt::print("totals of {} products: ICC(A,1) {:.2f}\n", of.complete, *of.icc);
+  else
+    fmt::print("totals: {} products were marked in full by all raters; below {} no ICC is given\n",
+               of.complete, study::kFewestProducts);
+  for (const study::TotalsApart& one : of.apart)
+    fmt::print(
+        "totals of {} minus those of {}: {:+.2f} items on average, 95 % of them between {:+.2f} "
+        "and {:+.2f}\n",
+        base::printable(one.first), base::printable(one.second), one.figures.mean,
+        one.figures.limits.low, one.figures.limits.high);
+  if (!of.ask_a_person.empty())
+    fmt::print(
+        "the machine agrees with people more than 5 points less than people with each other; ask a "
+        "person: {}\n",
+        base::list_of(of.ask_a_person));
+}
+
+Status raters(const Options& options) {
+  auto table = study::read_table(options.path, {"product", "rater", "item", "met"});
+  if (!table) return table.error();
+  std::vector<study::Rating> ratings;
+  for (std::size_t n = 0; n < table->rows.size(); ++n) {
+    const auto met = table->flag(n, 3);
+    if (!met) return met.error();
+    ratings.push_back({table->rows[n][0], table->rows[n][1], table->rows[n][2], *met});
+  }
+  const auto out = study::study_raters(ratings, options.seed);
+  if (!out) return error(fmt::format("{}: {}", table->file, out.error().text));
+  if (!options.json) {
+    print(*out);
+    return fine();
+  }
+  Json json = {{"raters", out->raters}, {"items", out->items}, {"pairs", Json::array()}};
+  for (const study::ItemAgreement& one : out->pairs) {
+    const study::Agreement& f = one.figures;
+    json["pairs"].push_back({{"item", one.item},
+                             {"first", one.first},
+                             {"second", one.second},
+                             {"products", f.products},
+                             {"agreement", f.agreement},
+                             {"agreement_95", interval(f.agreement_95)},
+                             {"kappa", f.kappa ? Json(*f.kappa) : Json(nullptr)},
+                             {"kappa_95", interval(f.kappa_95)},
+                             {"ac1", f.ac1},
+                             {"prevalence_index", f.prevalence_index}});
+  }
+  json["complete"] = out->complete;
+  json["icc_a1"] = out->icc ? Json(*out->icc) : Json(nullptr);
+  for (const study::TotalsApart& one : out->apart)
+    json["totals_apart"].push_back({{"first", one.first},
+                                    {"second", one.second},
+                                    {"mean", one.figures.mean},
+                                    {"deviation", one.figures.deviation},
+                                    {"limits", interval(one.figures.limits)}});
+  json["ask_a_person"] = out->ask_a_person;
+  fmt::print("{}\n", json_line(json));
+  return fine();
+}
+
+// ---- standards
+
+Status contrasting(const Options& options) {
+  auto table = study::read_table(options.path, {"group", "mark"});
+  if (!table) return table.error();
+  std::vector<double> low, high;
+  for (std::size_t n = 0; n < table->rows.size(); ++n) {
+    const auto mark = table->number(n, 1);
+    if (!mark) return mark.error();
+    const std::string& group = table->rows[n][0];
+    if (group != "low" && group != "high")
+      return error(fmt::format("{}: \"{}\" is neither low nor high", table->place(n, 0),
+                               base::printable(group)));
+    (group == "low" ? low : high).push_back(*mark);
+  }
+  const auto out = study::contrasting_groups(low, high, options.seed);
+  if (!out) return error(fmt::format("{}: {}", table->file, out.error().text));
+  if (options.json) {
+    fmt::print("{}\n", json_line(Json{{"method", "contrasting groups"},
+                                      {"cut", out->cut},
+                                      {"cut_95", interval(out->cut_95)},
+                                      {"low",
+                                       {{"n", out->n_low},
+                                        {"mean", out->mean_low},
+                                        {"deviation", out->deviation_low},
+                                        {"pass", out->pass_seen},
+                                        {"pass_expected", out->pass_expected},
+                                        {"pass_95", interval(out->pass_95)}}},
+                                      {"high",
+                                       {{"n", out->n_high},
+                                        {"mean", out->mean_high},
+                                        {"deviation", out->deviation_high},
+                                        {"fail", out->fail_seen},
+                                        {"fail_expected", out->fail_expected},
+                                        {"fail_95", interval(out->fail_95)}}}}));
+    return fine();
+  }
+  fmt::print("cut: {:.4g} (95 %: {:.4g} to {:.4g})\n", out->cut, out->cut_95.low, out->cut_95.high);
+  fmt::print(
+      "low:  {} marks, mean {:.4g}, deviation {:.4g}; {:.0f} % of them would pass, {:.0f} % "
+      "expected (95 %: {:.0f} to {:.0f})\n",
+      out->n_low, out->mean_low, out->deviation_low, 100 * out->pass_seen, 100 * out->pass_expected,
+      100 * out->pass_95.low, 100 * out->pass_95.high);
+  fmt::print(
+      "high: {} marks, mean {:.4g}, deviation {:.4g}; {:.0f} % of them would fail, {:.0f} % "
+      "expected (95 %: {:.0f} to {:.0f})\n",
+      out->n_high, out->mean_high, out->deviation_high, 100 * out->fail_seen,
+      100 * out->fail_expected, 100 * out->fail_95.low, 100 * out->fail_95.high);
+  fmt::print("This is a proposal. A person of the centre sets the standard.\n");
+  return fine();
+}
+
+// The judges' probabilities in the order of the items of the first judge.
+Result<std::vector<std::vector<double>>> judged(const study::Table& table) {
+  std::vector<std::string> judges;
+  std::map<std::string, std::map<std::string, double>> of;
+  for (std::size_t n = 0; n < table.rows.size(); ++n) {
+    const auto p = table.number(n, 2, 0, 1);
+    if (!p) return p.error();
+    const std::string &judge = table.rows[n][0], &item = table.rows[n][1];
+    if (!of.contains(judge)) judges.push_back(judge);
+    if (!of[judge].emplace(item, *p).second)
+      return error(fmt::format("{}: judge {} judged item {} twice; keep one", table.place(n, 1),
+                               base::printable(judge), base::printable(item)));
+  }
+  std::vector<std::vector<double>> out;
+  for (const std::string& judge : judges) {
+    std::vector<double>& row = out.emplace_back();
+    for (const auto& [item, unused] : of[judges.front()]) {
+      const auto found = of[judge].find(item);
+      if (found == of[judge].end())
+        return error(fmt::format("{}: judge {} did not judge item {}; each judge judges all items",
+                                 table.file, base::printable(judge), base::printable(item)));
+      row.push_back(found->second);
+    }
+    if (of[judge].size() != row.size())
+      return error(
+          fmt::format("{}: judge {} judged an item that {} did not; each judge judges all items",
+                      table.file, base::printable(judge), base::printable(judges.front())));
+  }
+  return out;
+}
+
+Status angoff(const Options& options) {
+  auto table = study::read_table(options.path, {"judge", "item", "probability"});
+  if (!table) return table.error();
+  const auto rows = judged(*table);
+  if (!rows) return rows.error();
+  const auto out = study::angoff(*rows);
+  if (!out) return error(fmt::format("{}: {}", table->file, out.error().text));
+  if (options.json)
+    fmt::print("{}\n", json_line(Json{{"method", "Angoff"},
+                                      {"judges", out->judges},
+                                      {"items", out->items},
+                                      {"cut", out->cut},
+                                      {"deviation", out->deviation},
+                                      {"cut_95", interval(out->cut_95)}}));
+  else
+    fmt::print(
+        "cut: {:.2f} of {} items (95 %: {:.2f} to {:.2f}); {} judges, deviation {:.2f}\n"
+        "This is a proposal. A person of the centre sets the standard.\n",
+        out->cut, out->items, out->cut_95.low, out->cut_95.high, out->judges, out->deviation);
+  return fine();
+}
+
+Status hofstee(const Options& options) {
+  if (options.marks.empty())
+    return error(Trouble::usage,
+                 "--method hofstee: give the marks with --marks F.csv (column mark)");
+  auto table = study::read_table(options.path, {"cut_low", "cut_high", "fail_low", "fail_high"});
+  if (!table) return table.error();
+  std::vector<study::HofsteeJudge> judges;
+  for (std::size_t n = 0; n < table->rows.size(); ++n) {
+    study::HofsteeJudge& judge = judges.emplace_back();
+    double* const places[] = {&judge.cut_low, &judge.cut_high, &judge.fail_low, &judge.fail_high};
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto value = c < 2 ? table->number(n, c) : table->number(n, c, 0, 1);
+      if (!value) return value.error();
+      *places[c] = *value;
+    }
+  }
+  auto of_marks = study::read_table(options.marks, {"mark"});
+  if (!of_marks) return of_marks.error();
+  std::vector<double> marks;
+  for (std::size_t n = 0; n < of_marks->rows.size(); ++n) {
+    const auto mark = of_marks->number(n, 0);
+    if (!mark) return mark.error();
+    marks.push_back(*mark);
+  }
+  const auto out = study::hofstee(judges, marks);
+  if (!out) return error(fmt::format("{}: {}", table->file, out.error().text));
+  if (options.json)
+    fmt::print("{}\n", json_line(Json{{"method", "Hofstee"},
+                                      {"judges", out->judges},
+                                      {"marks", out->marks},
+                                      {"cut", out->cut},
+                                      {"fail", out->fail}}));
+  else
+    fmt::print(
+        "cut: {:.4g}; {:.0f} % of the {} marks lie below it; {} judges\n"
+        "This is a proposal. A person of the centre sets the standard.\n",
+        out->cut, 100 * out->fail, out->marks, out->judges);
+  return fine();
+}
+
+Status standard(const Options& options) {
+  if (options.method == "angoff") return angoff(options);
+  return options.method == "hofstee" ? hofstee(options) : contrasting(options);
+}
+
+// ---- curves
+
+void print(const std::string& learner, const study::Curve& curve) {
+  fmt::print("{}: {} attempts without guidance, {} guided; ", base::printable(learner),
+             curve.unguided, curve.guided);
+  if (curve.kind == study::CurveKind::points) {
+    fmt::print("no fit ({} of {} needed, not all the same)\n", curve.unguided,
+               study::kFewestAttempts);
+    return;
+  }
+  fmt::print("{}; marks scatter by {:.3g}; ",
+             curve.kind == study::CurveKind::inverse
+                 ? fmt::format("{:.4g} - {:.3g} / n", curve.a, curve.b)
+                 : fmt::format("{:.4g} - {:.3g} exp(-{:.3g} n)", curve.a, curve.b, curve.c),
+             curve.scale);
+  fmt::print("{}\n", curve.n90
+                         ? fmt::format("90 % of the plateau after {:.1f} attempts", *curve.n90)
+                         : std::string("the marks do not rise"));
+}
+
+Status curve(const Options& options) {
+  auto table = study::read_table(options.path, {"learner", "mark"}, {"attempt", "bone", "guided"});
+  if (!table) return table.error();
+  std::vector<std::string> learners;
+  std::map<std::string, std::vector<study::Attempt>> of;
+  for (std::size_t n = 0; n < table->rows.size(); ++n) {
+    const std::vector<std::string>& row = table->rows[n];
+    if (!of.contains(row[0])) learners.push_back(row[0]);
+    std::vector<study::Attempt>& attempts = of[row[0]];
+    const auto mark = table->number(n, 1);
+    if (!mark) return mark.error();
+    study::Attempt attempt{static_cast<int>(attempts.size()) + 1, row[3], *mark, false};
+    if (!row[2].empty()) {
+      const auto number = table->number(n, 2, 1, 1e6);
+      if (!number) return number.error();
+      attempt.number = static_cast<int>(*number);
+    }
+    if (!row[4].empty()) {
+      const auto guided = table->flag(n, 4);
+      if (!guided) return guided.error();
+      attempt.guided = *guided;
+    }
+    attempts.push_back(std::move(attempt));
+  }
+  Json json = Json::array();
+  for (const std::string& learner : learners) {
+    const study::Curve fit = study::fit_curve(of[learner]);
+    if (!options.json) {
+      print(learner, fit);
+      continue;
+    }
+    Json one = {{"learner", learner}, {"unguided", fit.unguided}, {"guided", fit.guided}};
+    if (fit.kind != study::CurveKind::points) {
+      const bool inverse = fit.kind == study::CurveKind::inverse;
+      one.update({{"curve", inverse ? "a - b / n" : "a - b exp(-c n)"},
+                  {"a", fit.a},
+                  {"b", fit.b},
+                  {"scale", fit.scale},
+                  {"bones", fit.bones},
+                  {"offsets", fit.offsets}});
+      if (!inverse) one["c"] = fit.c;
+      one["n90"] = fit.n90 ? Json(*fit.n90) : Json(nullptr);
+      int last = 1;
+      for (const study::Attempt& attempt : of[learner]) last = std::max(last, attempt.number);
+      for (const study::Interval& at :
+           study::band(of[learner], fit, std::min(last, 200), options.seed))
+        one["band_95"].push_back(interval(at));
+    }
+    json.push_back(std::move(one));
+  }
+  if (options.json) fmt::print("{}\n", json_line(json));
+  return fine();
+}
+
+// ---- the command
+
+CLI::App& part(CLI::App& command, Todo& todo, const char* name, const char* what,
+               const char* columns, const std::shared_ptr<Options>& options,
+               Status (*work)(const Options&)) {
+  CLI::App* one = command.add_subcommand(name, what);
+  one->add_option("table", options->path, columns)->required();
+  one->add_option("--seed", options->seed, "of the samples behind the 95 % intervals")
+      ->capture_default_str();
+  one->add_flag("--json", options->json, "one JSON object, or array, as the last line");
+  one->callback([options, &todo, work] { todo.work = [options, work] { return work(*options); }; });
+  return *one;
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto* command = app.add_subcommand(
+      "study", "reliability, raters, standards and learning curves from tables of marks");
+  command->require_subcommand(1);
+  auto options = std::make_shared<Options>();
+  CLI::App& of_reliability =
+      part(*command, todo, "reliability", "how far a mark would be the same on another day",
+           "F.csv: columns learner, mark [, bone, guided], in the order of the sessions", options,
+           reliability);
+  of_reliability
+      .add_option("--marks", options->occasions, "how many of each learner's last marks are used")
+      ->check(CLI::Range(2, 100))
+      ->capture_default_str();
+  of_reliability.add_flag("--bones", options->bones,
+                          "tell the bones apart: that many marks on each of them");
+  part(*command, todo, "raters", "how far raters, or a rater and the machine, agree",
+       "F.csv: columns product, rater, item, met (1 or 0); the rater \"machine\" is burr", options,
+       raters);
+  CLI::App& of_standard = part(
+      *command, todo, "standard", "where a centre may set its standard",
+      "F.csv: group (low, high), mark; for angoff judge, item, probability; for hofstee cut_low, "
+      "cut_high, fail_low, fail_high",
+      options, standard);
+  of_standard.add_option("--method", options->method, "contrasting, angoff or hofstee")
+      ->check(CLI::IsMember({"contrasting", "angoff", "hofstee"}))
+      ->capture_default_str();
+  of_standard.add_option("--marks", options->marks,
+                         "F.csv with a column mark: the marks, for hofstee");
+  part(*command, todo, "curve", "each learner's curve over attempts",
+       "F.csv: columns learner, mark [, attempt, bone, guided]", options, curve);
+}
+
+const Command command{66, add};
+
+}  // namespace
+}  // namespace burr::app

@@ -1,0 +1,561 @@
+// `burr learner`: the centre's learners and their sessions: add, list, enter, export, forget, cohorts, the audit.
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "burr/base/new_file.h"
+#include "burr/base/places.h"
+#include "burr/base/printable.h"
+#include "burr/io/write/zip.h"
+#include "burr/record/identity.h"
+#include "burr/record/player.h"
+#include "burr/school/export.h"
+#include "burr/school/forget.h"
+#include "burr/school/pending.h"
+#include "burr/school/sessions.h"
+#include "burr/school/store.h"
+#include "commands/command.h"
+#include "commands/counted.h"
+#include "commands/json_line.h"
+#include "commands/outputs.h"
+#include "commands/volume_words.h"
+#include "report/marked.h"
+#include "report/report_page.h"
+#include "school/session_of.h"
+#include "window/shell/words.h"
+
+namespace burr::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string store;
+  bool json = false;
+  // add
+  school::Learner learner;
+  school::Person person;
+  std::string retain_until;
+  // others
+  std::string id, recording, rubric, out, csv, title, language = "en";
+  std::vector<std::string> ids;
+  scenario::Recipe volume;
+  bool names = false, sessions = false, overdue = false, scrub = false, all = false,
+       no_reports = false;
+};
+
+// ---- days
+
+std::string day_of(std::int64_t ms) {
+  const auto seconds = static_cast<std::time_t>(ms / 1000);
+  std::tm local = {};
+  localtime_r(&seconds, &local);
+  return fmt::format("{:%Y-%m-%d}", local);
+}
+
+// "2027-12-31": the end of that day here.
+Result<std::int64_t> end_of_day(const std::string& text) {
+  std::tm day = {};
+  const char* rest = strptime(text.c_str(), "%Y-%m-%d", &day);
+  if (rest == nullptr || *rest != '\0' || text.size() != 10)
+    return error(Trouble::usage, fmt::format("--retain-until {}: use a day such as 2027-12-31",
+                                             base::printable(text)));
+  day.tm_hour = 23;
+  day.tm_min = day.tm_sec = 59;
+  day.tm_isdst = -1;
+  return std::int64_t{1000} * std::mktime(&day);
+}
+
+// ---- the store
+
+Result<school::SessionRecord> score_waiting(const school::WaitingRecording& waiting) {
+  return session_of(waiting.file, waiting.learner, waiting.rubric, {}, progress());
+}
+
+Result<school::StorePlace> place(const Options& options) {
+  return school::place_of(options.store, users_places());
+}
+
+// Opens the store, takes in the sessions that waited and are scored already, and says what it has to say.
+Result<std::unique_ptr<school::Store>> open_store(const Options& options) {
+  const auto where = place(options);
+  if (!where) return where.error();
+  auto store = school::Store::open(*where);
+  if (!store) return store.error();
+  for (const std::string& line : (*store)->notices()) fmt::print(stderr, "{}\n", line);
+  if ((*store)->reads_only()) return store;
+  const school::TakenIn in = school::take_in(**store, {});
+  for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
+  if (in.taken > 0)
+    fmt::print(stderr, "{} that waited came into the store\n", counted(in.taken, "session"));
+  return store;
+}
+
+void print_json(const Options& options, const Json& json) {
+  if (options.json) fmt::print("{}\n", json_line(json));
+}
+
+// ---- add, list
+
+Status run_add(Options options) {
+  if (!options.retain_until.empty()) {
+    const auto until = end_of_day(options.retain_until);
+    if (!until) return until.error();
+    options.learner.retain_until_ms = *until;
+  }
+  auto store = open_store(options);
+  if (!store) return store.error();
+  if (options.learner.id.empty()) {
+    const auto id = school::new_pseudonym(**store);
+    if (!id) return id.error();
+    options.learner.id = *id;
+  }
+  if (const Status added = school::add(**store, options.learner, options.person); !added)
+    return added;
+  fmt::print("{}\n", options.learner.id);
+  if (!options.person.empty() && (*store)->database().kind() == school::Database::Kind::sqlite)
+    fmt::print("the name is in {}\n",
+               base::printable(school::names_file((*store)->place().address), 300));
+  print_json(options, {{"id", options.learner.id}, {"named", !options.person.empty()}});
+  return fine();
+}
+
+Json json_of(const school::LearnerRow& row, bool names) {
+  Json one = {{"id", row.learner.id},       {"level", row.learner.level},
+              {"hand", row.learner.handed}, {"created_ms", row.learner.created_ms},
+              {"retain_until_ms", nullptr}, {"consent_research", row.learner.consent_research},
+              {"sessions", row.sessions},   {"unguided", row.unguided},
+              {"needed", school::kNeeded},  {"last_ms", nullptr}};
+  if (row.learner.retain_until_ms) one["retain_until_ms"] = *row.learner.retain_until_ms;
+  if (row.last_ms) one["last_ms"] = *row.last_ms;
+  if (names) {
+    one["name"] = row.person.name;
+    one["mail"] = row.person.mail;
+    one["external_id"] = row.person.external_id;
+  }
+  return one;
+}
+
+Json json_of(const school::SessionRow& row) {
+  return {{"id", row.id},
+          {"case", row.case_name},
+          {"started_ms", row.started_ms},
+          {"seconds", row.seconds},
+          {"mode", row.mode},
+          {"guided", row.guided},
+          {"finished", row.finished},
+          {"attempt", row.attempt},
+          {"device", row.device}};
+}
+
+Status list_sessions(const Options& options, school::Store& store) {
+  const auto rows = school::sessions_of(store, options.id);
+  if (!rows) return rows.error();
+  Json all = Json::array();
+  fmt::print("{:<12}{:<18}{:>8}  {:<10}{:<10}{:<12}{}\n", "day", "case", "attempt", "mode",
+             "guided", "ended", "items met");
+  for (const school::SessionRow& row : *rows) {
+    const auto scores = school::scores_of(store, row.id);
+    if (!scores) return scores.error();
+    std::string met;
+    Json one = json_of(row);
+    one["scores"] = Json::array();
+    for (const school::ScoreRow& score : *scores) {
+      met += fmt::format("{}{} {} of {}", met.empty() ? "" : ", ", score.part, score.met,
+                         score.assessable);
+      one["scores"].push_back({{"part", score.part},
+                               {"rubric", score.rubric},
+                               {"rubric_hash", score.rubric_hash},
+                               {"engine", score.engine},
+                               {"met", score.met},
+                               {"assessable", score.assessable},
+                               {"gates_broken", score.gates_broken}});
+    }
+    fmt::print("{:<12}{:<18}{:>8}  {:<10}{:<10}{:<12}{}\n", day_of(row.started_ms),
+               base::printable(row.case_name), row.attempt, row.mode, row.guided ? "guided" : "no",
+               row.finished ? "done" : "unfinished", met);
+    all.push_back(std::move(one));
+  }
+  print_json(options, {{"learner", options.id}, {"sessions", all}});
+  return fine();
+}
+
+Status run_list(const Options& options) {
+  auto store = open_store(options);
+  if (!store) return store.error();
+  if (!options.id.empty()) {
+    const auto known = school::has(**store, options.id);
+    if (!known) return known.error();
+    if (!*known)
+      return error(Trouble::usage, fmt::format("{}: there is no such learner; `burr learner list`",
+                                               base::printable(options.id)));
+    return list_sessions(options, **store);
+  }
+  const auto rows = school::learners(**store, options.names);
+  if (!rows) return rows.error();
+  if (options.names && !(*store)->reads_only())
+    if (const Status noted = (*store)->note("names shown", ""); !noted) return noted;
+  Json all = Json::array();
+  fmt::print("{:<22}{:<9}{:>9}  {:<12}{:<10}{:<9}{}\n", "learner", "level", "sessions", "last",
+             "unguided", "research", options.names ? "name" : "");
+  for (const school::LearnerRow& row : *rows) {
+    const std::string last = row.last_ms ? day_of(*row.last_ms) : "never";
+    const std::string so_far = row.unguided < school::kNeeded
+                                   ? fmt::format("{} of {}", row.unguided, school::kNeeded)
+                                   : fmt::format("{}", row.unguided);
+    fmt::print("{:<22}{:<9}{:>9}  {:<12}{:<10}{:<9}{}\n", row.learner.id, row.learner.level,
+               row.sessions, last, so_far, row.learner.consent_research ? "yes" : "no",
+               base::printable(row.person.name));
+    all.push_back(json_of(row, options.names));
+  }
+  print_json(options, {{"learners", all}});
+  return fine();
+}
+
+// ---- sessions come in
+
+Status run_enter(const Options& options) {
+  const auto where = place(options);
+  if (!where) return where.error();
+  const auto record =
+      session_of(options.recording, options.id, options.rubric, options.volume, progress());
+  if (!record) return record.error();
+  const auto kept = school::enter_or_keep(*where, *record);
+  if (!kept) return kept.error();
+  if (kept->stored)
+    fmt::print("{}: the session is in the store\n", record->learner);
+  else
+    fmt::print("{}: the session waits, and comes into the store at the next start: {}\n",
+               record->learner, kept->why);
+  print_json(options, {{"session", school::session_id(*record)},
+                       {"learner", record->learner},
+                       {"stored", kept->stored}});
+  return fine();
+}
+
+// Also scores recordings; the window starts this beside itself.
+Status run_take_in(const Options& options) {
+  const auto where = place(options);
+  if (!where) return where.error();
+  std::vector<std::string> notices;
+  const std::vector<school::Waiting> all = school::waiting(*where, notices);
+  // what is scored once need not be scored again, wherever the server is
+  for (const school::Waiting& one : all) {
+    if (!one.recording) continue;
+    std::error_code nobody_asks;
+    if (!fs::exists(one.recording->file, nobody_asks)) continue;
+    const auto record = score_waiting(*one.recording);
+    if (!record) continue;  // take_in() says why
+    if (const Status kept = school::keep(*where, *record); !kept) return kept;
+    fs::remove(one.file, nobody_asks);
+  }
+  auto store = school::Store::open(*where);
+  if (!store) return store.error();
+  const school::TakenIn in = school::take_in(**store, score_waiting);
+  for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
+  fmt::print("{} came into the store, {} still waiting\n", counted(in.taken, "session"), in.left);
+  print_json(options, {{"taken", in.taken}, {"left", in.left}});
+  return fine();
+}
+
+// ---- forget
+
+// Recordings of the window that are this learner's, also those that never came into the store.
+std::vector<std::string> recordings_of(const std::string& learner) {
+  std::vector<std::string> all;
+  std::error_code nobody_asks;
+  const fs::path folder = users_places().state / "sessions";
+  for (const auto& entry : fs::directory_iterator(folder, nobody_asks)) {
+    if (entry.path().extension() != ".mcap") continue;
+    const auto player = record::Player::open(entry.path().string());
+    if (!player) continue;
+    const auto& identity = (*player)->info().identity;
+    if (identity && identity->learner == learner) all.push_back(entry.path().string());
+  }
+  return all;
+}
+
+Status forget_one(school::Store& store, const std::string& id, Json& all) {
+  const auto done = school::forget(store, id, recordings_of(id));
+  if (!done) return done.error();
+  fmt::print("forgotten: {}, {}, {} deleted\n", counted(done->sessions, "session"),
+             counted(done->waiting, "session") + " that waited",
+             counted(done->deleted.size(), "file"));
+  if (done->voided > 0)
+    fmt::print("{} sent elsewhere will be taken back\n", counted(done->voided, "statement"));
+  for (const std::string& one : done->unreached)
+    fmt::print("not reached, delete it yourself: {}\n", base::printable(one, 400));
+  for (const std::string& one : done->notices) fmt::print(stderr, "{}\n", one);
+  all.push_back({{"sessions", done->sessions},
+                 {"deleted", done->deleted},
+                 {"unreached", done->unreached},
+                 {"voided", done->voided},
+                 {"complete", done->notices.empty()}});
+  return fine();
+}
+
+Status run_forget(const Options& options) {
+  if (options.id.empty() && !options.overdue && !options.scrub)
+    return error(Trouble::usage, "name a learner, or give --overdue");
+  auto store = open_store(options);
+  if (!store) return store.error();
+  Json all = Json::array();
+  if (!options.id.empty())
+    if (const Status gone = forget_one(**store, options.id, all); !gone) return gone;
+  if (options.overdue) {
+    const auto late = school::overdue(**store, school::now_ms());
+    if (!late) return late.error();
+    for (const std::string& id : *late)
+      if (const Status gone = forget_one(**store, id, all); !gone) return gone;
+    fmt::print("{} whose time to keep was over\n", counted(late->size(), "learner"));
+  }
+  if (options.scrub)
+    if (const Status clean = school::scrub(**store); !clean) return clean;
+  print_json(options, {{"forgotten", all}});
+  return fine();
+}
+
+// ---- export
+
+Status write_csv(const Options& options, school::Store& store) {
+  const auto files = school::all_tables(store);
+  if (!files) return files.error();
+  std::error_code trouble;
+  fs::create_directories(options.csv, trouble);
+  if (trouble)
+    return error(Trouble::io, fmt::format("--csv {}: cannot make this folder ({})",
+                                          base::printable(options.csv), trouble.message()));
+  for (const school::TextFile& one : *files) {
+    auto file = base::NewFile::create((fs::path(options.csv) / one.name).string());
+    if (!file) return file.error();
+    file->write(one.text);
+    if (const Status written = file->put_in_place(); !written) return written;
+  }
+  fmt::print("{}: {}, pseudonyms only\n", base::printable(options.csv, 300),
+             counted(files->size(), "table"));
+  print_json(options, {{"tables", files->size()}});
+  return fine();
+}
+
+// A page for each recording that is there.
+void add_reports(const Options& options, const std::vector<school::SessionRow>& sessions,
+                 std::vector<school::TextFile>& files, std::vector<std::string>& missing) {
+  speak(options.language);
+  for (const school::SessionRow& one : sessions) {
+    const std::string path = school::path_of(one.recording_uri);
+    std::error_code nobody_asks;
+    if (path.empty() || !fs::exists(path, nobody_asks)) {
+      missing.push_back(one.recording_uri);
+      continue;
+    }
+    const auto report = marked(path, "", {}, progress());
+    if (report)
+      files.push_back(
+          {fmt::format("report_{}_{}.html", day_of(one.started_ms), one.id.substr(0, 8)),
+           page_of(*report)});
+    else
+      missing.push_back(fmt::format("{} ({})", one.recording_uri, report.error().text));
+  }
+}
+
+Status write_zip(const std::string& path, const std::vector<school::TextFile>& files) {
+  auto file = base::NewFile::create(path, 0600);  // it may hold a name
+  if (!file) return file.error();
+  io::Zip zip(*file);
+  for (const school::TextFile& one : files)
+    zip.add(one.name, [&one](io::Deflate& to) {
+      to.write(one.text.data(), one.text.size());
+      return true;
+    });
+  if (!zip.finish()) return error(Trouble::io, path + ": larger than 4 GB; use --no-reports");
+  return file->put_in_place();
+}
+
+Status run_export(const Options& options) {
+  if (options.all != options.id.empty() || options.all == options.csv.empty())
+    return error(Trouble::usage, "use `burr learner export ID --out F.zip`, or `--all --csv DIR`");
+  if (const Status possible = check_outputs({}, {{"--out", options.out, {".zip"}}}); !possible)
+    return possible;
+  if (!options.all && options.out.empty())
+    return error(Trouble::usage, "--out is missing: F.zip, the file to write");
+  auto store = open_store(options);
+  if (!store) return store.error();
+  if (options.all) return write_csv(options, **store);
+  auto files = school::tables_of(**store, options.id);
+  if (!files) return files.error();
+  const auto sessions = school::sessions_of(**store, options.id);
+  if (!sessions) return sessions.error();
+  std::vector<std::string> missing;
+  if (!options.no_reports) add_reports(options, *sessions, *files, missing);
+  if (const Status written = write_zip(options.out, *files); !written) return written;
+  fmt::print("{}: {}, all that is known of {}\n", base::printable(options.out, 300),
+             counted(files->size(), "file"), options.id);
+  for (const std::string& one : missing)
+    fmt::print("no report, because the recording is not here: {}\n", base::printable(one, 400));
+  print_json(options, {{"files", files->size()}, {"missing", missing}});
+  return fine();
+}
+
+// ---- cohorts, audit
+
+Status run_cohort_list(const Options& options) {
+  auto store = open_store(options);
+  if (!store) return store.error();
+  const auto all = school::cohorts(**store);
+  if (!all) return all.error();
+  Json json = Json::array();
+  for (const school::Cohort& one : *all) {
+    fmt::print("{}: {}\n", base::printable(one.title), base::list_of(one.members));
+    json.push_back({{"id", one.id}, {"title", one.title}, {"members", one.members}});
+  }
+  print_json(options, {{"cohorts", json}});
+  return fine();
+}
+
+Status run_cohort(const Options& options, bool adds) {
+  auto store = open_store(options);
+  if (!store) return store.error();
+  const Status done = adds ? school::add_to_cohort(**store, options.title, options.ids)
+                           : school::remove_from_cohort(**store, options.title, options.ids);
+  if (!done) return done;
+  fmt::print("{}: {} {}\n", base::printable(options.title), counted(options.ids.size(), "learner"),
+             adds ? "added" : "removed");
+  return fine();
+}
+
+Status run_audit(const Options& options) {
+  auto store = open_store(options);
+  if (!store) return store.error();
+  const auto rows = school::audit(**store);
+  if (!rows) return rows.error();
+  Json all = Json::array();
+  for (const school::AuditRow& row : *rows) {
+    fmt::print("{:%Y-%m-%d %H:%M:%S}Z  {:<24}{:<24}{}\n",
+               fmt::gmtime(static_cast<std::time_t>(row.ms / 1000)), base::printable(row.who),
+               row.what, row.subject);
+    all.push_back({{"ms", row.ms}, {"who", row.who}, {"what", row.what}, {"subject", row.subject}});
+  }
+  print_json(options, {{"audit", all}});
+  return fine();
+}
+
+// ---- the command line
+
+using Run = Status (*)(const Options&);
+
+CLI::App* sub(CLI::App& command, const char* name, const char* says,
+              const std::shared_ptr<Options>& options, Todo& todo, Run run) {
+  auto* made = command.add_subcommand(name, says);
+  made->add_option("--store", options->store,
+                   "a file, or postgresql://... (default: BURR_STORE, or school.sqlite in burr's "
+                   "data folder)");
+  made->add_flag("--json", options->json, "print a JSON object as the last line");
+  made->callback([options, run, &todo] { todo.work = [options, run] { return run(*options); }; });
+  return made;
+}
+
+void add_people(CLI::App& command, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* add = sub(command, "add", "a new learner; burr makes the pseudonym", options, todo,
+                  [](const Options& given) { return run_add(given); });
+  add->add_option("--id", options->learner.id, "the pseudonym, if not one that burr makes")
+      ->check([](const std::string& text) {
+        const Status good = record::check_pseudonym(text);
+        return good ? std::string() : good.error().text;
+      });
+  add->add_option("--level", options->learner.level, "student, PGY1 to PGY9, or surgeon");
+  add->add_option("--hand", options->learner.handed, "left, right or both");
+  add->add_option("--retain-until", options->retain_until,
+                  "a day such as 2027-12-31; after it burr offers to delete the learner");
+  add->add_flag("--consent-research", options->learner.consent_research,
+                "the learner agreed to research, not to training alone");
+  add->add_option("--name", options->person.name, "kept apart, in the file or schema of names");
+  add->add_option("--mail", options->person.mail, "likewise");
+  add->add_option("--external-id", options->person.external_id,
+                  "the learner's number elsewhere; likewise");
+
+  options = std::make_shared<Options>();
+  auto* list =
+      sub(command, "list", "the learners, or the sessions of one", options, todo, run_list);
+  list->add_option("learner", options->id, "a pseudonym: lists the sessions");
+  list->add_flag("--names", options->names, "with their names; the audit says so");
+
+  options = std::make_shared<Options>();
+  auto* forget = sub(command, "forget", "delete a learner, with all sessions and recordings",
+                     options, todo, run_forget);
+  forget->add_option("learner", options->id, "a pseudonym");
+  forget->add_flag("--overdue", options->overdue, "all whose time to keep is over");
+  forget->add_flag("--scrub", options->scrub,
+                   "make the files anew, so that no bytes of deleted rows are left");
+}
+
+void add_sessions(CLI::App& command, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* enter = sub(command, "enter", "score a recording and enter it as a session of a learner",
+                    options, todo, run_enter);
+  enter->add_option("learner", options->id, "a pseudonym")->required();
+  enter->add_option("recording", options->recording, "a recording (.mcap)")->required();
+  enter->add_option("--rubric", options->rubric,
+                    "a built-in rubric, or a .toml file (default: that of the recording's case)");
+  enter->add_option("--volume", options->volume.source,
+                    "the volume it was made from (default: burr searches for it)");
+  add_volume_options(*enter, options->volume);
+
+  options = std::make_shared<Options>();
+  sub(command, "take-in", "score and enter the sessions that wait for the store", options, todo,
+      run_take_in);
+
+  options = std::make_shared<Options>();
+  auto* out = sub(command, "export", "all that is known of a learner, or tables of all", options,
+                  todo, run_export);
+  out->add_option("learner", options->id, "a pseudonym");
+  out->add_option("--out", options->out, "F.zip: tables (CSV and JSON) and reports");
+  out->add_flag("--no-reports", options->no_reports, "tables alone");
+  std::vector<std::string> codes;
+  for (const Language& one : languages()) codes.push_back(one.code);
+  out->add_option("--language", options->language, "of the reports")->check(CLI::IsMember(codes));
+  out->add_flag("--all", options->all, "of all learners, without names");
+  out->add_option("--csv", options->csv, "with --all: the folder for the tables");
+}
+
+void add_cohort(CLI::App& command, Todo& todo) {
+  auto* cohort = command.add_subcommand("cohort", "groups of learners: a class, a year");
+  cohort->require_subcommand(1);
+  auto options = std::make_shared<Options>();
+  sub(*cohort, "list", "the groups and who is in them", options, todo, run_cohort_list);
+  for (const bool adds : {true, false}) {
+    options = std::make_shared<Options>();
+    auto* one = adds ? sub(*cohort, "add", "learners into a group; it is made if it is not there",
+                           options, todo, [](const Options& o) { return run_cohort(o, true); })
+                     : sub(*cohort, "remove", "learners out of a group; an empty group goes",
+                           options, todo, [](const Options& o) { return run_cohort(o, false); });
+    one->add_option("title", options->title, "of the group")->required();
+    one->add_option("learners", options->ids, "pseudonyms")->required();
+  }
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto* command = app.add_subcommand("learner", "a centre's learners and their sessions");
+  command->require_subcommand(1);
+  add_people(*command, todo);
+  add_sessions(*command, todo);
+  add_cohort(*command, todo);
+  auto options = std::make_shared<Options>();
+  sub(*command, "audit", "who did what, and when", options, todo, run_audit);
+}
+
+const Command command{70, add};
+
+}  // namespace
+}  // namespace burr::app

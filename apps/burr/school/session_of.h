@@ -1,0 +1,29 @@
+// apps/burr/school/session_of.h - a recording becomes what the store of learners keeps of a session: scores by the
+// rubric of its case, items with their evidence, the learner's own marks, some measures.
+//
+// Thread: any. Cost: seconds, as report/scored.h. Errors: one sentence.
+#pragma once
+
+#include <string>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/scenario/recipe.h"
+#include "burr/school/session_record.h"
+#include "report/scored.h"
+
+namespace burr::app {
+
+// learner: whose the session is; empty: as the recording says. rubric: a name or a file; empty: the built-in one of its
+// case. Error, Trouble::usage: the recording says another learner, or none. Trouble::interrupted: it is
+// still being written.
+[[nodiscard]] Result<school::SessionRecord> session_of(const std::string& recording,
+                                                       const std::string& learner,
+                                                       const std::string& rubric,
+                                                       const scenario::Recipe& volume,
+                                                       Progress& progress);
+
+// Without file and date.
+[[nodiscard]] school::SessionRecord record_of(const Scored& scored);
+
+}  // namespace burr::app

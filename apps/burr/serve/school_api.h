@@ -1,0 +1,21 @@
+// serve/school_api.h - what the instructor's page may ask of the store of learners, as JSON. Reads only.
+//
+//     GET /api/overview                learners, cohorts, cases
+//     GET /api/cohort?id=&case=        learners by items
+//     GET /api/learner?id=             sessions, curves
+//     GET /api/session?id=             items with evidence
+//     GET /api/audit                   who did what to the store
+//     GET /api/sessions.csv            a table for other programs
+//
+// Pseudonyms only: the file or schema with the names is never read here. Thread: as the Store.
+#pragma once
+
+#include "burr/school/store.h"
+#include "burr/serve/request.h"
+
+namespace burr::app {
+
+// 404 for what there is not, 503 while the store cannot be read.
+[[nodiscard]] serve::Response answer_of_school(school::Store& store, const serve::Request& request);
+
+}  // namespace burr::app

@@ -1,0 +1,146 @@
+// `burr serve`: the instructor's page, in a browser, from the store of learners.
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/base/places.h"
+#include "burr/school/pending.h"
+#include "burr/school/store.h"
+#include "burr/serve/guard.h"
+#include "burr/serve/http_server.h"
+#include "commands/command.h"
+#include "serve/page_files.h"
+#include "serve/school_api.h"
+
+namespace burr::app {
+namespace {
+
+struct Options {
+  std::string store, token_file;
+  serve::Door door;
+  std::vector<std::string> names;
+  int port = 8231;
+};
+
+std::atomic<serve::HttpServer*> running = nullptr;
+static_assert(std::atomic<serve::HttpServer*>::is_always_lock_free);
+
+// The names by which a browser may ask: with the port, and without it where it is the usual one.
+std::vector<std::string> hosts_of(const Options& options, unsigned short port) {
+  std::vector<std::string> names = options.names;
+  const std::string& address = options.door.address;
+  names.push_back(address.find(':') == std::string::npos ? address : "[" + address + "]");
+  if (serve::is_loopback(address)) names.emplace_back("localhost");
+  std::vector<std::string> out;
+  const bool usual = port == (options.door.certificate.empty() ? 80 : 443);
+  for (const std::string& name : names) {
+    out.push_back(fmt::format("{}:{}", name, port));
+    if (usual) out.push_back(name);
+  }
+  return out;
+}
+
+Status check(const Options& options) {
+  if (!serve::is_loopback(options.door.address) && options.door.certificate.empty())
+    return error(Trouble::usage,
+                 fmt::format("--listen {}: other computers could read along. Give --certificate "
+                             "and --key for TLS, or stay on "
+                             "127.0.0.1 and use a tunnel: ssh -L {}:127.0.0.1:{} THIS-COMPUTER",
+                             options.door.address, options.port, options.port));
+  return fine();
+}
+
+serve::Response page(const serve::Request& request) {
+  const std::string path = request.path == "/" ? "/index.html" : request.path;
+  for (const PageFile& file : page_files())
+    if (file.path == path) {
+      serve::Response out;
+      out.type = file.type;
+      out.body = file.text;
+      out.keeps = path != "/index.html";
+      return out;
+    }
+  return serve::refusal(404, "there is nothing at this address");
+}
+
+Status run(const Options& options) {
+  if (const Status good = check(options); !good) return good;
+  const auto place = school::place_of(options.store, users_places());
+  if (!place) return place.error();
+  if (!school::is_wanted(options.store, *place))
+    return error(
+        Trouble::io,
+        fmt::format(
+            "there is no store of learners at {}; make one with `burr learner add`, or name one "
+            "with --store",
+            school::shown(place->address)));
+  auto store = school::Store::open(*place);
+  if (!store) return store.error();
+  auto token =
+      options.token_file.empty() ? serve::new_token() : serve::token_from(options.token_file);
+  if (!token) return token.error();
+  serve::Guard guard;
+  guard.token = *token;
+  guard.tls = !options.door.certificate.empty();
+  serve::Door door = options.door;
+  door.port = static_cast<unsigned short>(options.port);
+  auto server = serve::HttpServer::open(door, [&](const serve::Request& request) {
+    if (auto refusal = serve::refused(request, guard)) return *refusal;
+    return request.path.starts_with("/api/") ? answer_of_school(**store, request) : page(request);
+  });
+  if (!server) return server.error();
+  guard.hosts = hosts_of(options, (*server)->port());
+  for (const std::string& notice : (*store)->notices()) fmt::print(stderr, "{}\n", notice);
+  fmt::print(
+      "store: {}\nOpen this address in a browser. Whoever has it can read the store:\n  "
+      "{}://{}/#token={}\nCtrl-C ends.\n",
+      school::shown(place->address), guard.tls ? "https" : "http", guard.hosts.front(),
+      guard.token);
+  std::fflush(stdout);
+  running = server->get();
+  struct sigaction stop = {};
+  stop.sa_handler = [](int) {
+    if (serve::HttpServer* const one = running) one->stop();
+  };
+  sigaction(SIGINT, &stop, nullptr);
+  sigaction(SIGTERM, &stop, nullptr);
+  (*server)->run();
+  running = nullptr;
+  return fine();
+}
+
+void add(CLI::App& app, Todo& todo) {
+  auto* command = app.add_subcommand("serve", "the instructor's page, in a browser");
+  auto options = std::make_shared<Options>();
+  command->add_option(
+      "--store", options->store,
+      "the store of learners: a file, or postgresql://... (default: as `burr learner`)");
+  command->add_option("--port", options->port, "0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command
+      ->add_option("--listen", options->door.address,
+                   "an address of this computer; others than 127.0.0.1 need TLS")
+      ->capture_default_str();
+  command->add_option("--certificate", options->door.certificate,
+                      "F.pem: the certificate, for TLS");
+  command->add_option("--key", options->door.key, "F.pem: its private key");
+  command->add_option("--name", options->names,
+                      "a name by which browsers reach this computer; can be repeated");
+  command->add_option("--token-file", options->token_file,
+                      "a file with the token, readable by you alone (default: a new token)");
+  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+}
+
+const Command command{67, add};
+
+}  // namespace
+}  // namespace burr::app

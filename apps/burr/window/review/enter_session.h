@@ -1,0 +1,28 @@
+// apps/burr/window/review/enter_session.h - a session of a learner goes into the store of learners, beside the window: a
+// small file says that its recording waits, and `burr learner take-in` scores it in a process of its own. So the window
+// never waits for a store, and what is not done when the computer is switched off is done at the next start.
+//
+// Thread: main.
+#pragma once
+
+#include <string>
+
+#include "burr/record/identity.h"
+#include "burr/scenario/case.h"
+#include "window/shell/desk.h"
+
+namespace burr::app {
+
+// When the recording begins: a session that is killed comes in at the next start, as unfinished.
+void session_begins(Desk& desk, const std::string& recording, const record::Identity& identity,
+                    const scenario::Case* work);
+
+// recording: complete; kept: false if it was thrown away, because nothing was done. Does nothing without a learner, a case with a rubric, or a store that somebody wants
+// (school::is_wanted). What went wrong is told on the start page.
+void session_ended(Desk& desk, const std::string& recording, const record::Identity& identity,
+                   const scenario::Case* work, bool kept);
+
+// What waited since another start. Call it once, at the start.
+void enter_waiting(Desk& desk);
+
+}  // namespace burr::app

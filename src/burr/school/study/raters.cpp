@@ -1,0 +1,210 @@
+#include "burr/school/study/raters.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "burr/base/printable.h"
+#include "burr/school/study/resample.h"
+
+namespace burr::school::study {
+namespace {
+
+constexpr int kDraws = 2000;
+constexpr double kPoints = 0.05;  // how much less the machine may agree
+constexpr const char* kMachine = "machine";
+
+struct Counts {
+  double both = 0, first = 0, second = 0, neither = 0;
+
+  void add(const Pair& pair) {
+    (pair.first ? (pair.second ? both : first) : (pair.second ? second : neither)) += 1;
+  }
+  [[nodiscard]] double all() const { return both + first + second + neither; }
+  [[nodiscard]] double agreement() const { return (both + neither) / all(); }
+  [[nodiscard]] std::optional<double> kappa() const {
+    const double n = all(), a = (both + first) / n, b = (both + second) / n;
+    const double expected = a * b + (1 - a) * (1 - b);
+    if (expected >= 1 - 1e-12) return std::nullopt;
+    return (agreement() - expected) / (1 - expected);
+  }
+  [[nodiscard]] double ac1() const {
+    const double q = (2 * both + first + second) / (2 * all());
+    const double expected = 2 * q * (1 - q);
+    return (agreement() - expected) / (1 - expected);
+  }
+};
+
+double square(double x) { return x * x; }
+
+std::string& once(std::vector<std::string>& list, const std::string& text) {
+  const auto found = std::find(list.begin(), list.end(), text);
+  return found == list.end() ? list.emplace_back(text) : *found;
+}
+
+// rater -> product -> item -> mark
+using Marks = std::map<std::string, std::map<std::string, std::map<std::string, bool>>>;
+
+// The marks of two raters for one item; "": for all items.
+std::vector<Pair> pairs_of(const Marks& marks, const std::string& a, const std::string& b,
+                           const std::string& item) {
+  std::vector<Pair> out;
+  for (const auto& [product, items] : marks.at(a)) {
+    const auto other = marks.at(b).find(product);
+    if (other == marks.at(b).end()) continue;
+    for (const auto& [name, met] : items)
+      if (item.empty() || name == item)
+        if (const auto same = other->second.find(name); same != other->second.end())
+          out.emplace_back(met, same->second);
+  }
+  return out;
+}
+
+// The totals of the products that every rater marked in full.
+std::vector<std::vector<double>> totals_of(const Marks& marks, const RaterStudy& study) {
+  std::vector<std::vector<double>> out;
+  for (const auto& [product, unused] : marks.begin()->second) {
+    std::vector<double> row;
+    for (const std::string& rater : study.raters) {
+      const auto found = marks.at(rater).find(product);
+      if (found == marks.at(rater).end() || found->second.size() != study.items.size()) break;
+      double met = 0;
+      for (const auto& [item, mark] : found->second) met += mark ? 1 : 0;
+      row.push_back(met);
+    }
+    if (row.size() == study.raters.size()) out.push_back(std::move(row));
+  }
+  return out;
+}
+
+// Pairs of people, and pairs of a person and the machine, that marked this item, with the mean of their agreement.
+std::vector<std::string> items_for_a_person(const RaterStudy& study) {
+  std::vector<std::string> out;
+  for (const std::string& item : study.items) {
+    double people = 0, machine = 0;
+    int of_people = 0, of_machine = 0;
+    for (const ItemAgreement& pair : study.pairs) {
+      if (pair.item != item) continue;
+      const bool with_machine = pair.first == kMachine || pair.second == kMachine;
+      (with_machine ? machine : people) += pair.figures.agreement;
+      ++(with_machine ? of_machine : of_people);
+    }
+    if (of_people > 0 && of_machine > 0 &&
+        machine / of_machine < people / of_people - kPoints - 1e-12)
+      out.push_back(item);
+  }
+  return out;
+}
+
+}  // namespace
+
+Agreement agreement(const std::vector<Pair>& marks, std::uint64_t seed) {
+  Counts counts;
+  for (const Pair& pair : marks) counts.add(pair);
+  Agreement out;
+  out.products = static_cast<int>(marks.size());
+  out.agreement = counts.agreement();
+  out.kappa = counts.kappa();
+  out.ac1 = counts.ac1();
+  out.prevalence_index = std::abs(counts.both - counts.neither) / counts.all();
+  const auto drawn = [&](people::RandomStream& random) {
+    Counts again;
+    for (std::size_t n = 0; n < marks.size(); ++n)
+      again.add(marks[static_cast<std::size_t>(random.below(out.products))]);
+    return again;
+  };
+  out.kappa_95 =
+      resampled(kDraws, seed, [&](people::RandomStream& random) { return drawn(random).kappa(); });
+  out.agreement_95 =
+      resampled(kDraws, seed, [&](people::RandomStream& random) -> std::optional<double> {
+        return drawn(random).agreement();
+      });
+  return out;
+}
+
+double icc_a1(const std::vector<std::vector<double>>& totals) {
+  const auto n = static_cast<double>(totals.size()), k = static_cast<double>(totals.front().size());
+  std::vector<double> columns(totals.front().size()), rows;
+  for (const std::vector<double>& row : totals) {
+    double sum = 0;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      sum += row[c];
+      columns[c] += row[c] / n;
+    }
+    rows.push_back(sum / k);
+  }
+  double all = 0;
+  for (const double row : rows) all += row / n;
+  double of_rows = 0, of_columns = 0, rest = 0;
+  for (const double row : rows) of_rows += k * square(row - all);
+  for (const double column : columns) of_columns += n * square(column - all);
+  for (std::size_t r = 0; r < totals.size(); ++r)
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      rest += square(totals[r][c] - rows[r] - columns[c] + all);
+  const double msr = of_rows / (n - 1), msc = of_columns / (k - 1),
+               mse = rest / ((n - 1) * (k - 1));
+  const double below = msr + (k - 1) * mse + k * (msc - mse) / n;
+  return below > 0 ? (msr - mse) / below : 0;
+}
+
+BlandAltman bland_altman(const std::vector<std::pair<double, double>>& totals) {
+  BlandAltman out;
+  out.products = static_cast<int>(totals.size());
+  for (const auto& [a, b] : totals) out.mean += (a - b) / out.products;
+  for (const auto& [a, b] : totals) out.deviation += square(a - b - out.mean);
+  out.deviation = out.products > 1 ? std::sqrt(out.deviation / (out.products - 1)) : 0;
+  out.limits = {out.mean - 1.96 * out.deviation, out.mean + 1.96 * out.deviation};
+  return out;
+}
+
+Result<RaterStudy> study_raters(const std::vector<Rating>& ratings, std::uint64_t seed) {
+  RaterStudy out;
+  Marks marks;
+  for (const Rating& one : ratings) {
+    once(out.raters, one.rater);
+    once(out.items, one.item);
+    if (!marks[one.rater][one.product].emplace(one.item, one.met).second)
+      return error(fmt::format("rater {} marked item {} of product {} twice; keep one mark",
+                               base::printable(one.rater), base::printable(one.item),
+                               base::printable(one.product)));
+  }
+  if (out.raters.size() < 2)
+    return error("agreement needs the marks of two raters; here are those of one");
+  std::map<std::string, int> marked;  // by how many raters
+  for (const auto& [rater, products] : marks)
+    for (const auto& [product, items] : products) ++marked[product];
+  const auto shared =
+      std::count_if(marked.begin(), marked.end(), [](const auto& one) { return one.second > 1; });
+  if (shared < kFewestProducts)
+    return error(fmt::format(
+        "two raters marked {} products in common; below {} nothing can be said of their agreement",
+        shared, kFewestProducts));
+  std::vector<std::string> items = out.items;
+  items.emplace_back();
+  for (const std::string& item : items)
+    for (std::size_t a = 0; a < out.raters.size(); ++a)
+      for (std::size_t b = a + 1; b < out.raters.size(); ++b) {
+        const std::vector<Pair> pairs = pairs_of(marks, out.raters[a], out.raters[b], item);
+        if (static_cast<int>(pairs.size()) >= kFewestProducts)
+          out.pairs.push_back({item, out.raters[a], out.raters[b], agreement(pairs, seed)});
+      }
+  const std::vector<std::vector<double>> totals = totals_of(marks, out);
+  out.complete = static_cast<int>(totals.size());
+  if (out.complete >= kFewestProducts) {
+    out.icc = icc_a1(totals);
+    for (std::size_t a = 0; a < out.raters.size(); ++a)
+      for (std::size_t b = a + 1; b < out.raters.size(); ++b) {
+        std::vector<std::pair<double, double>> both;
+        for (const std::vector<double>& row : totals) both.emplace_back(row[a], row[b]);
+        out.apart.push_back({out.raters[a], out.raters[b], bland_altman(both)});
+      }
+  }
+  out.ask_a_person = items_for_a_person(out);
+  return out;
+}
+
+}  // namespace burr::school::study

@@ -1,0 +1,413 @@
+// What goes wrong in a centre: a store that is locked, a full disk, a server that stops, hangs, or cuts connections.
+// Nothing is lost, and nothing comes twice.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "burr/school/forget.h"
+#include "burr/school/pending.h"
+#include "burr/school/sessions.h"
+#include "school/made.h"
+#include "support/postgres_server.h"
+
+namespace burr::school {
+namespace {
+
+using test::Folder;
+using test::made_session;
+using test::PostgresServer;
+
+std::unique_ptr<Store> opened(const StorePlace& place) {
+  auto store = Store::open(place);
+  EXPECT_TRUE(store) << store.error().text;
+  return store ? std::move(*store) : nullptr;
+}
+
+void add_learner(Store& store, const std::string& id, const Person& person = {}) {
+  Learner learner;
+  learner.id = id;
+  const Status added = add(store, learner, person);
+  ASSERT_TRUE(added) << added.error().text;
+}
+
+std::size_t waits(const StorePlace& place) {
+  std::vector<std::string> notices;
+  return waiting(place, notices).size();
+}
+
+// What waits comes in, once.
+void comes_in_once(const StorePlace& place, std::size_t waited, std::size_t sessions) {
+  EXPECT_EQ(waits(place), waited);
+  auto store = opened(place);
+  const TakenIn in = take_in(*store, {});
+  EXPECT_EQ(in.taken, waited);
+  EXPECT_EQ(in.left, 0U);
+  EXPECT_EQ(in.notices, std::vector<std::string>{});
+  EXPECT_EQ(waits(place), 0U);
+  EXPECT_EQ(take_in(*store, {}).taken, 0U);
+  EXPECT_EQ(sessions_of(*store, "")->size(), sessions);
+}
+
+bool holds(const std::filesystem::path& folder, const std::string& text) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    if (bytes.find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(StoreTrouble, NoByteOfAForgottenLearnerIsLeft) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  auto store = opened(place);
+  add_learner(*store, "kestrel-27", {"Ada Lovelace", "ada@example.org", "S-1815"});
+  add_learner(*store, "otter-5", {"Grace Hopper", "", ""});
+  // many, so that rows lie on pages of their own
+  for (int n = 0; n < 100; ++n) {
+    ASSERT_TRUE(enter(*store, made_session("kestrel-27", std::to_string(n))));
+    ASSERT_TRUE(enter(*store, made_session("otter-5", std::to_string(n))));
+  }
+  ASSERT_TRUE(keep(place, made_session("kestrel-27", "waits")));
+  const std::vector<std::string> gone = {"kestrel-27", "Ada Lovelace", "ada@example.org", "S-1815",
+                                         session_id(made_session("kestrel-27", "7"))};
+  for (const std::string& one : gone) EXPECT_TRUE(holds(folder.path(), one)) << one;
+  const auto done = forget(*store, "kestrel-27", {});
+  ASSERT_TRUE(done) << done.error().text;
+  EXPECT_EQ(done->notices, std::vector<std::string>{});
+  for (const std::string& one : gone) EXPECT_FALSE(holds(folder.path(), one)) << one;
+  store.reset();
+  for (const std::string& one : gone) EXPECT_FALSE(holds(folder.path(), one)) << one;
+  EXPECT_TRUE(holds(folder.path(), "otter-5"));
+  EXPECT_TRUE(holds(folder.path(), "Grace Hopper"));
+}
+
+TEST(StoreTrouble, SaysWhereBytesMayBeLeftWhileSomebodyReads) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  auto store = opened(place);
+  add_learner(*store, "kestrel-27");
+  auto reader = open_sqlite(place.address, names_file(place.address), place.waits);
+  ASSERT_TRUE((*reader)->run("BEGIN"));
+  ASSERT_TRUE((*reader)->rows("SELECT * FROM learner"));
+  const auto done = forget(*store, "kestrel-27", {});
+  ASSERT_TRUE(done) << done.error().text;
+  ASSERT_EQ(done->notices.size(), 1U);
+  EXPECT_NE(done->notices[0].find("--scrub"), std::string::npos);
+  ASSERT_TRUE((*reader)->run("COMMIT"));
+  ASSERT_TRUE(scrub(*store));
+  EXPECT_FALSE(holds(folder.path(), "kestrel-27"));
+}
+
+TEST(StoreTrouble, ALockedFileMakesSessionsWait) {
+  EXPECT_EQ(Waits().lock_ms, 5000);
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  add_learner(*opened(place), "kestrel-27");
+  auto other = open_sqlite(place.address, names_file(place.address), place.waits);
+  ASSERT_TRUE((*other)->begin());
+  const SessionRecord one = made_session("kestrel-27", "a");
+  for (int n = 0; n < 2; ++n) {  // the second time it takes the place of the first
+    const auto kept = enter_or_keep(place, one);
+    ASSERT_TRUE(kept) << kept.error().text;
+    EXPECT_FALSE(kept->stored);
+    EXPECT_NE(kept->why.find("another program writes"), std::string::npos) << kept->why;
+  }
+  {  // still locked: it goes on waiting
+    auto store = opened(place);
+    const TakenIn in = take_in(*store, {});
+    EXPECT_EQ(in.left, 1U);
+  }
+  (*other)->rollback();
+  comes_in_once(place, 1, 1);
+  std::vector<std::string> notices;
+  ASSERT_TRUE(keep(place, one));  // as if burr was killed before it deleted the file
+  EXPECT_EQ(take_in(*opened(place), {}).taken, 1U);
+  EXPECT_EQ(sessions_of(*opened(place), "")->size(), 1U);
+}
+
+TEST(StoreTrouble, AFullDiskMakesSessionsWait) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  auto store = opened(place);
+  add_learner(*store, "kestrel-27");
+  const auto pages = store->database().rows("PRAGMA page_count");
+  ASSERT_TRUE(store->database().rows("PRAGMA max_page_count = 1"));  // no more than there are
+  Result<Entered> entered = Entered{};
+  int n = 0;
+  for (; n < 200 && entered; ++n)
+    entered = enter(*store, made_session("kestrel-27", std::to_string(n)));
+  ASSERT_FALSE(entered);
+  EXPECT_EQ(entered.error().trouble, Trouble::io);
+  EXPECT_NE(entered.error().text.find("the disk is full"), std::string::npos);
+  const std::size_t whole_ones = sessions_of(*store, "")->size();
+  EXPECT_EQ(whole_ones, static_cast<std::size_t>(n - 1));  // the last one left nothing
+  EXPECT_EQ(whole((*store->database().rows("SELECT count(*) FROM score"))[0][0]), 2 * (n - 1));
+}
+
+TEST(StoreTrouble, AFileThatMayNotGrowMakesSessionsWait) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  add_learner(*opened(place), "kestrel-27");
+  std::signal(SIGXFSZ, SIG_IGN);  // as burr does
+  rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 8000;  // a session that waits has 4000 bytes; the store cannot be written
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto kept = enter_or_keep(place, made_session("kestrel-27", "a"));
+  small.rlim_cur = 100;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto lost = enter_or_keep(place, made_session("kestrel-27", "b"));
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  ASSERT_TRUE(kept) << kept.error().text;
+  EXPECT_FALSE(kept->stored);
+  ASSERT_FALSE(lost);  // said, not hidden; the recording is there still
+  EXPECT_EQ(lost.error().trouble, Trouble::io);
+  comes_in_once(place, 1, 1);
+}
+
+TEST(StoreTrouble, ATornFileIsSetAsideAndForeignOnesStay) {
+  const Folder folder;
+  StorePlace place = test::place_in(folder);
+  add_learner(*opened(place), "kestrel-27");
+  ASSERT_TRUE(keep(place, made_session("kestrel-27", "a")));
+  std::ofstream(place.pending / "torn.json") << "{\"store\": \"" << place.address << "\", \"sess";
+  std::ofstream(place.pending / "odd.json")
+      << "{\"store\": \"" << place.address << "\", \"session\": {\"learner\": 5}}";
+  StorePlace other = place;
+  other.address = folder / "other.sqlite";
+  ASSERT_TRUE(keep(other, made_session("kestrel-27", "b")));
+  const TakenIn in = take_in(*opened(place), {});
+  EXPECT_EQ(in.taken, 1U);
+  EXPECT_EQ(in.notices.size(), 2U);
+  EXPECT_TRUE(std::filesystem::exists(place.pending / "torn.json.damaged"));
+  EXPECT_TRUE(std::filesystem::exists(place.pending / "odd.json.damaged"));
+  EXPECT_EQ(waits(other), 1U);
+}
+
+TEST(StoreTrouble, ASessionOfAForgottenLearnerDoesNotComeBack) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  auto store = opened(place);
+  ASSERT_TRUE(keep(place, made_session("kestrel-27", "a")));  // as from another station
+  const TakenIn in = take_in(*store, {});
+  EXPECT_EQ(in.taken, 0U);
+  EXPECT_EQ(in.left, 0U);
+  ASSERT_EQ(in.notices.size(), 1U);
+  EXPECT_EQ(waits(place), 0U);
+  EXPECT_FALSE(holds(folder.path(), "kestrel-27"));
+}
+
+TEST(StoreTrouble, ARecordingThatWaitsIsScoredOnce) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  auto store = opened(place);
+  add_learner(*store, "kestrel-27");
+  const std::string file = folder / "session_1.mcap";
+  std::ofstream(file) << "bytes";
+  ASSERT_TRUE(keep(place, WaitingRecording{file, "kestrel-27", ""}));
+  ASSERT_TRUE(keep(place, WaitingRecording{folder / "gone.mcap", "kestrel-27", ""}));
+  EXPECT_EQ(take_in(*store, {}).left, 1U);  // nobody here can score; the other is said to be gone
+  const ScoreIt fails = [](const WaitingRecording&) -> Result<SessionRecord> {
+    return error("the bone is not there");
+  };
+  EXPECT_EQ(take_in(*store, fails).left, 1U);
+  EXPECT_EQ(waits(place), 1U);
+  int scored = 0;
+  const ScoreIt score = [&](const WaitingRecording& one) -> Result<SessionRecord> {
+    EXPECT_EQ(one.file, file);
+    ++scored;
+    return made_session(one.learner, "a");
+  };
+  EXPECT_EQ(take_in(*store, score).taken, 1U);
+  EXPECT_EQ(take_in(*store, score).taken, 0U);
+  EXPECT_EQ(scored, 1);
+  EXPECT_EQ(sessions_of(*store, "")->size(), 1U);
+}
+
+// ---- a server
+
+class ServerTrouble : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    BURR_NEEDS_POSTGRES(server_);
+    place_ = test::place_in(folder_);
+    place_.address = server_.address();
+    add_learner(*opened(place_), "kestrel-27");
+  }
+  Folder folder_;
+  PostgresServer server_;
+  StorePlace place_;
+};
+
+TEST_F(ServerTrouble, AStoppedServerMakesSessionsWait) {
+  server_.stop("fast");
+  const auto kept = enter_or_keep(place_, made_session("kestrel-27", "a"));
+  ASSERT_TRUE(kept) << kept.error().text;
+  EXPECT_FALSE(kept->stored);
+  ASSERT_TRUE(server_.start());
+  comes_in_once(place_, 1, 1);
+}
+
+TEST_F(ServerTrouble, ACutConnectionIsMadeAnewAndNothingIsHalfWritten) {
+  auto store = opened(place_);
+  auto other = open_postgres(place_.address, "other", {});
+  ASSERT_TRUE(other);
+  const auto cut = [&] {
+    ASSERT_TRUE(
+        (*other)->rows("SELECT count(pg_terminate_backend(pid)) FROM pg_stat_activity "
+                       "WHERE pid <> pg_backend_pid() AND datname = 'postgres'"));
+  };
+  cut();
+  const SessionRecord one = made_session("kestrel-27", "a");
+  const auto first = enter(*store, one);
+  ASSERT_FALSE(first);  // the connection is lost only when it is used
+  EXPECT_EQ(first.error().trouble, Trouble::io) << first.error().text;
+  const auto second = enter(*store, one);
+  ASSERT_TRUE(second) << second.error().text;
+  EXPECT_TRUE(second->session);
+  // within a transaction there is no new connection: half of it would be lost
+  ASSERT_TRUE(store->database().begin());
+  ASSERT_TRUE(store->database().run("DELETE FROM metric"));
+  cut();
+  EXPECT_FALSE(store->database().run("DELETE FROM self_mark"));
+  EXPECT_FALSE(store->database().run("DELETE FROM self_mark"));
+  EXPECT_FALSE(store->database().commit());
+  EXPECT_EQ(whole((*store->database().rows("SELECT count(*) FROM metric"))[0][0]), 1);
+  EXPECT_EQ(whole((*store->database().rows("SELECT count(*) FROM self_mark"))[0][0]), 2);
+}
+
+TEST_F(ServerTrouble, AServerThatHangsIsNotWaitedForForEver) {
+  place_.waits.answer_s = 1;
+  auto store = opened(place_);
+  const auto pid = store->database().rows("SELECT pg_backend_pid()");
+  ASSERT_TRUE(pid);
+  const auto backend = static_cast<pid_t>(whole((*pid)[0][0]));
+  ASSERT_EQ(::kill(backend, SIGSTOP), 0);
+  const auto entered = enter(*store, made_session("kestrel-27", "a"));
+  ::kill(backend, SIGCONT);
+  ASSERT_FALSE(entered);
+  EXPECT_EQ(entered.error().trouble, Trouble::io);
+  EXPECT_NE(entered.error().text.find("does not answer"), std::string::npos)
+      << entered.error().text;
+  EXPECT_TRUE(enter(*store, made_session("kestrel-27", "a")));  // by a new connection
+}
+
+TEST_F(ServerTrouble, NoPasswordIsInAMessage) {
+  StorePlace place = place_;
+  place.address =
+      "postgresql://burr:se@cr%40et@/postgres?host=" + folder_.str() + "&password=other&port=5999";
+  EXPECT_EQ(shown(place.address), "postgresql:///postgres?host=" + folder_.str() + "&port=5999");
+  const auto store = Store::open(place);
+  ASSERT_FALSE(store);
+  EXPECT_EQ(store.error().trouble, Trouble::io);
+  for (const char* secret : {"se@cr", "cr%40et", "other"})
+    EXPECT_EQ(store.error().text.find(secret), std::string::npos) << store.error().text;
+}
+
+TEST_F(ServerTrouble, AStationWithoutRightsToNamesEntersSessions) {
+  auto owner = opened(place_);
+  for (const Sql one :
+       {Sql("CREATE ROLE station LOGIN"),
+        Sql("GRANT SELECT, INSERT, UPDATE, DELETE ON ALL TABLES IN SCHEMA public TO station")})
+    ASSERT_TRUE(owner->database().run(one));
+  StorePlace place = place_;
+  place.address.replace(place.address.find("burr@"), 4, "station");
+  auto store = opened(place);
+  add_learner(*store, "otter-5");
+  EXPECT_TRUE(enter(*store, made_session("kestrel-27", "a")));
+  EXPECT_TRUE(learners(*store, false));
+  const auto named = learners(*store, true);
+  ASSERT_FALSE(named);
+  EXPECT_NE(named.error().text.find("permission denied"), std::string::npos) << named.error().text;
+  // a right that is taken away makes sessions wait, not go
+  ASSERT_TRUE(owner->database().run("REVOKE INSERT ON metric FROM station"));
+  const auto kept = enter_or_keep(place, made_session("kestrel-27", "b"));
+  ASSERT_TRUE(kept) << kept.error().text;
+  EXPECT_FALSE(kept->stored);
+  EXPECT_EQ(take_in(*store, {}).left, 1U);
+  ASSERT_TRUE(owner->database().run("GRANT INSERT ON metric TO station"));
+  comes_in_once(place, 1, 2);
+  Learner other;
+  other.id = "lynx-100";
+  EXPECT_FALSE(add(*store, other, {"Ada Lovelace", "", ""}));
+  EXPECT_FALSE(*has(*store, "lynx-100"));
+}
+
+constexpr int kStations = 10, kEach = 30;
+
+// One of ten computers: sessions end here whatever the server does. Returns 0 if each was stored or waits.
+int station(const StorePlace& place, int number) {
+  for (int n = 0; n < kEach; ++n) {
+    const auto kept = enter_or_keep(
+        place, made_session("kestrel-27", std::to_string(number) + "." + std::to_string(n)));
+    if (!kept) return 1;
+    ::usleep(20'000);
+    if (n % 5 != 4) continue;
+    // a new start
+    if (auto store = Store::open(place)) static_cast<void>(take_in(**store, {}));
+  }
+  return 0;
+}
+
+TEST_F(ServerTrouble, TenStationsLoseNothingAndEnterNothingTwice) {
+  std::vector<pid_t> stations;
+  std::vector<StorePlace> places;
+  for (int n = 0; n < kStations; ++n) {
+    StorePlace place = place_;
+    place.pending = folder_.path() / ("pending" + std::to_string(n));
+    place.waits.lock_ms = 5000;
+    places.push_back(place);
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(station(place, n));
+    ASSERT_GT(child, 0);
+    stations.push_back(child);
+  }
+  // meanwhile: two crashes, a restart, and connections that are cut
+  for (const char* how : {"immediate", "fast", "immediate"}) {
+    for (int n = 0; n < 4; ++n) {
+      ::usleep(150'000);
+      if (auto other = open_postgres(place_.address, "other", {}))
+        static_cast<void>(
+            (*other)->rows("SELECT count(pg_terminate_backend(pid)) FROM pg_stat_activity "
+                           "WHERE pid <> pg_backend_pid() AND datname = 'postgres'"));
+    }
+    server_.stop(how);
+    ::usleep(200'000);
+    ASSERT_TRUE(server_.start()) << server_.log();
+  }
+  for (const pid_t child : stations) {
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  }
+  std::size_t waited = 0;
+  for (const StorePlace& place : places) {
+    waited += waits(place);
+    EXPECT_EQ(take_in(*opened(place), {}).left, 0U);
+  }
+  auto store = opened(place_);
+  const auto count = [&](Sql sql) { return whole((*store->database().rows(sql))[0][0]); };
+  constexpr std::int64_t kAll = std::int64_t{kStations} * kEach;
+  EXPECT_EQ(count("SELECT count(*) FROM session"), kAll);
+  EXPECT_EQ(count("SELECT count(DISTINCT recording_hash) FROM session"), kAll);
+  EXPECT_EQ(count("SELECT count(*) FROM score"), 2 * kAll);
+  EXPECT_EQ(count("SELECT count(*) FROM item"), 4 * kAll);
+  EXPECT_EQ(count("SELECT count(*) FROM metric"), kAll);
+  EXPECT_EQ(count("SELECT count(*) FROM self_mark"), 2 * kAll);
+  EXPECT_EQ(count("SELECT count(*) FROM audit WHERE what = 'session entered'"), kAll);
+  RecordProperty("waited_at_the_end", static_cast<int>(waited));
+}
+
+}  // namespace
+}  // namespace burr::school

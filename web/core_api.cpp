@@ -1,0 +1,308 @@
+// What the worker of the page calls (pages/mill/worker.js): the bone, its surface, and the tick.
+//
+//     core_make(voxel_mm) -> [ core_patch() ]* -> core_soft() -> core_begin()
+//     then, each beat: core_aim(), core_step(ticks), core_row(), [ core_patch() ]*
+//
+// One thread: each call belongs to it. What a call gives lies in the module's memory until the next
+// call of the same function. Structs go to the page as the bytes that they are; the page runs the
+// same module.
+#include <emscripten.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/math/rotation.h"
+#include "burr/phantom/build.h"
+#include "burr/record/player.h"
+#include "burr/render/soft_scene.h"
+#include "burr/surface/mesher.h"
+#include "burr/tick/servo.h"
+#include "burr/volume/bone.h"
+#include "burr/volume/iso_vertices.h"
+#include "page_recorder.h"
+#include "window/hands/mouse_hand.h"
+#include "work_of_page.h"
+
+namespace {
+
+using namespace burr;
+using math::Vec3;
+
+constexpr std::size_t kReserveBricks = 2048;
+constexpr double kRpm = 80000;  // cases/temporal_bone.toml
+
+// A piece of surface for the page.
+struct Given {
+  int number = -1;  // of the patch; of a soft structure: its tissue
+  const void* vertices = nullptr;
+  std::size_t vertex_count = 0;
+  const std::uint32_t* triangles = nullptr;
+  std::size_t index_count = 0;
+};
+
+struct Core {
+  std::unique_ptr<volume::Bone> bone;
+  std::unique_ptr<volume::IsoVertices> surface;
+  std::unique_ptr<app::MouseHand> hand;
+  std::unique_ptr<tick::Servo> servo;
+  tick::TickRow row;
+  double voxel_mm = 0;
+  std::unique_ptr<record::Player> player;       // of a recording that is watched
+  std::unique_ptr<web::PageRecorder> recorder;  // nullptr: it has failed, or is finished
+  int undrained = 0;                            // ticks
+  std::string why;                              // it has failed
+
+  std::unique_ptr<surface::Mesher> mesher;
+  rt::ChangedBits* changed = nullptr;
+  std::deque<int> due;  // patches to mesh, oldest request first
+  std::vector<bool> queued;
+  std::vector<int> named;
+  surface::Patch patch;
+  render::Scene soft;  // its soft structures only
+  std::size_t soft_given = 0;
+  Given given;
+
+  void want(int number) {
+    if (queued[static_cast<std::size_t>(number)]) return;
+    queued[static_cast<std::size_t>(number)] = true;
+    due.push_back(number);
+  }
+};
+
+std::unique_ptr<Core> core;
+
+// As Session::make caps them (sim/session.cpp).
+tick::ServoSettings settings_for(const device::DeviceSpec& spec) {
+  tick::ServoSettings settings;
+  settings.rate_hz = web::kRate;
+  settings.burr.radius = web::kBurrRadius;
+  settings.spindle_rad_s = kRpm * 2 * std::numbers::pi / 60;
+  settings.force.stiffness = tick::coupling_of(spec, settings).stiffness;
+  settings.force.damping = std::min(settings.force.damping, spec.max_damping);
+  return settings;
+}
+
+// All patches, those around the work first.
+void want_all(Core& c) {
+  const math::Ijk along = c.mesher->patches();
+  const volume::Grid& grid = c.bone->grid();
+  std::vector<std::pair<double, int>> order;
+  for (int n = 0; n < c.mesher->patch_count(); ++n) {
+    const math::Ijk at(n % along.x(), n / along.x() % along.y(), n / along.x() / along.y());
+    const Vec3 middle =
+        grid.frame.p + grid.frame.q * Vec3(grid.voxel * surface::kPatchEdge *
+                                           (at.cast<double>().array() + 0.5).matrix());
+    order.emplace_back((middle - web::work_at()).norm(), n);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [far, n] : order) c.want(n);
+}
+
+void take_bone(Core& c, std::unique_ptr<volume::Bone> bone) {
+  c.bone = std::move(bone);
+  c.changed = &c.bone->add_watcher();
+  c.mesher = std::make_unique<surface::Mesher>(*c.bone);
+  c.queued.resize(static_cast<std::size_t>(c.mesher->patch_count()));
+  want_all(c);
+}
+
+void drain(Core& c) {
+  c.undrained = 0;
+  const Status drained = c.recorder->drain();
+  if (drained) return;
+  c.why = drained.error().text;
+  c.servo->set_recorder_rings({});
+  c.recorder.reset();
+}
+
+}  // namespace
+
+extern "C" {
+
+// Makes the bone by its formula. 0: there is not enough memory.
+EMSCRIPTEN_KEEPALIVE int core_make(double voxel_mm) {
+  core = std::make_unique<Core>();
+  core->voxel_mm = voxel_mm;
+  const double voxel = 1e-3 * voxel_mm;
+  const phantom::Phantom made = web::phantom_of_page(voxel);
+  NoProgress quiet;
+  auto bone = phantom::bone_from_formula(phantom::box_grid(made.lo, made.hi, voxel), made.tissues,
+                                         made.formula, kReserveBricks, 1, quiet);
+  if (!bone) return 0;
+  take_bone(*core, std::move(*bone));
+  return 1;
+}
+
+// Meshes the next patch that is due. nullptr: none is. Patches without triangles come too: they may
+// have had some.
+EMSCRIPTEN_KEEPALIVE const Given* core_patch() {
+  Core& c = *core;
+  c.changed->take_all([&](std::size_t brick) {
+    c.named.clear();
+    c.mesher->patches_of_brick(static_cast<volume::BrickIndex>(brick), c.named);
+    for (const int patch : c.named) c.want(patch);
+  });
+  if (c.due.empty()) return nullptr;
+  const int number = c.due.front();
+  c.due.pop_front();
+  c.queued[static_cast<std::size_t>(number)] = false;
+  while (!c.mesher->mesh_patch(number, c.patch)) {  // nobody writes: it succeeds at once
+  }
+  c.given = {number, c.patch.vertices.data(), c.patch.vertices.size(), c.patch.triangles.data(),
+             c.patch.triangles.size()};
+  return &c.given;
+}
+EMSCRIPTEN_KEEPALIVE int core_patches_due() { return static_cast<int>(core->due.size()); }
+
+// The soft structures; their vertices are render::SkinVertex. nullptr: that was all.
+EMSCRIPTEN_KEEPALIVE const Given* core_soft() {
+  Core& c = *core;
+  if (c.soft.materials.empty()) {
+    NoProgress quiet;
+    static_cast<void>(render::add_soft(c.soft, *c.bone, quiet));
+  }
+  if (c.soft_given == c.soft.soft.size()) return nullptr;
+  const render::SoftStructure& one = c.soft.soft[c.soft_given++];
+  const auto& triangles = one.mesh->levels.front().indices;
+  c.given = {one.tissue, one.mesh->vertices.data(), one.mesh->vertices.size(), triangles.data(),
+             triangles.size()};
+  return &c.given;
+}
+
+// Makes the surface that is felt, and the hand 20 mm above the work: ticks may begin.
+EMSCRIPTEN_KEEPALIVE void core_begin() {
+  Core& c = *core;
+  NoProgress quiet;
+  c.surface = std::make_unique<volume::IsoVertices>(*c.bone, volume::IsoSettings{}, 1, quiet);
+  math::Pose above;
+  above.p = web::work_at() - 20e-3 * web::work_into();
+  above.q = math::shortest_rotation(Vec3::UnitZ(), -web::work_into());
+  c.hand = std::make_unique<app::MouseHand>(above);
+  const tick::ServoSettings settings = settings_for(c.hand->spec());
+  c.servo = std::make_unique<tick::Servo>(*c.bone, *c.surface, *c.hand, settings);
+  auto recorder = web::PageRecorder::begin(*c.bone, settings, c.hand->spec(), c.voxel_mm);
+  if (!recorder) {
+    c.why = recorder.error().text;
+    return;
+  }
+  c.recorder = std::move(*recorder);
+  c.servo->set_recorder_rings(c.recorder->rings());
+}
+
+// Completes the recording: the file PageRecorder::kFile. 0: core_why() says why there is none.
+EMSCRIPTEN_KEEPALIVE int core_finish_recording() {
+  Core& c = *core;
+  if (c.recorder == nullptr) {
+    if (c.why.empty()) c.why = "the recording is finished";
+    return 0;
+  }
+  const Status done = c.recorder->finish([&c] {
+    if (c.servo->bricks_to_write() == 0) return false;
+    c.servo->flush_bricks();
+    return true;
+  });
+  c.servo->set_recorder_rings({});
+  c.recorder.reset();
+  if (!done) c.why = done.error().text;
+  return done ? 1 : 0;
+}
+EMSCRIPTEN_KEEPALIVE const char* core_why() { return core->why.c_str(); }
+
+// Where the hand shall be: the bytes of a MouseHand::Aim are written here, then core_aimed() is called.
+EMSCRIPTEN_KEEPALIVE void* core_aim() {
+  static app::MouseHand::Aim aim;
+  return &aim;
+}
+EMSCRIPTEN_KEEPALIVE void core_aimed() {
+  core->hand->aim(*static_cast<app::MouseHand::Aim*>(core_aim()));
+}
+
+EMSCRIPTEN_KEEPALIVE void core_step(int ticks) {
+  Core& c = *core;
+  for (int n = 0; n < ticks; ++n) {
+    c.row = c.servo->tick(false);
+    c.servo->publish();
+    if (c.recorder != nullptr && ++c.undrained >= web::PageRecorder::kDue) drain(c);
+  }
+  c.bone->commit_ahead();
+  c.surface->commit_ahead();
+  c.servo->commit_ahead();
+}
+// The row of the last tick, tick::TickRow.
+EMSCRIPTEN_KEEPALIVE const void* core_row() { return &core->row; }
+EMSCRIPTEN_KEEPALIVE int core_row_size() { return sizeof(tick::TickRow); }
+
+// kind: tick::CommandKind.
+EMSCRIPTEN_KEEPALIVE void core_command(int kind, double value) {
+  static_cast<void>(
+      core->servo->commands().push({static_cast<tick::CommandKind>(kind), value, {}}));
+}
+
+// ---- a recording is watched: core_open() instead of core_make() and core_begin(), then core_seek()
+
+// Opens the recording PageRecorder::kFile, which holds its bone. 0: core_why() says why not.
+EMSCRIPTEN_KEEPALIVE int core_open() {
+  core = std::make_unique<Core>();
+  auto player = record::Player::open(web::PageRecorder::kFile);
+  if (!player) {
+    core->why = player.error().text;
+    return 0;
+  }
+  auto bone = (*player)->embedded_bone();
+  if (!bone) {
+    core->why = bone.error().text;
+    return 0;
+  }
+  core->player = std::move(*player);
+  core->voxel_mm = 1e3 * (*bone)->grid().voxel;
+  take_bone(*core, std::move(*bone));
+  return 1;
+}
+EMSCRIPTEN_KEEPALIVE double core_seconds() { return core->player->seconds(); }
+EMSCRIPTEN_KEEPALIVE double core_rate() { return core->player->info().rate_hz; }
+EMSCRIPTEN_KEEPALIVE double core_voxel_mm() { return core->voxel_mm; }
+// Bone and row as they were then. 0: core_why() says why not.
+EMSCRIPTEN_KEEPALIVE int core_seek(double seconds) {
+  Core& c = *core;
+  const Status there = c.player->bone_at(seconds, *c.bone);
+  const auto row = c.player->tick_at(seconds);
+  if (!there || !row) {
+    c.why = !there ? there.error().text : row.error().text;
+    return 0;
+  }
+  c.row = *row;
+  return 1;
+}
+// Of a tissue of the bone: its kind (volume::TissueKind), colour, and how much it bleeds. nullptr: there is
+// no tissue of this number. Its name: core_tissue_name().
+EMSCRIPTEN_KEEPALIVE const double* core_tissue(int number) {
+  static double told[5];
+  const auto& tissues = core->bone->tissues().tissues;
+  if (static_cast<std::size_t>(number) >= tissues.size()) return nullptr;
+  const volume::Tissue& tissue = tissues[static_cast<std::size_t>(number)];
+  told[0] = static_cast<double>(tissue.kind);
+  std::copy(tissue.colour.begin(), tissue.colour.end(), told + 1);
+  told[4] = tissue.bleeds;
+  return told;
+}
+EMSCRIPTEN_KEEPALIVE const char* core_tissue_name(int number) {
+  return core->bone->tissues().tissues[static_cast<std::size_t>(number)].name.c_str();
+}
+
+// "tick hash, hash of the bone", in hexadecimal
+EMSCRIPTEN_KEEPALIVE const char* core_hashes() {
+  static char text[40];
+  std::snprintf(text, sizeof text, "%016llx %016llx",
+                static_cast<unsigned long long>(core->row.hash),
+                static_cast<unsigned long long>(core->bone->content_hash()));
+  return text;
+}
+
+}  // extern "C"

@@ -1,0 +1,49 @@
+// web/page_recorder.h - records the session of the page, by record/pen.h, into a file in the memory of
+// the module. One thread: rings and pen belong to it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "burr/base/result.h"
+#include "burr/device/hand.h"
+#include "burr/record/pen.h"
+#include "burr/rt/ring.h"
+#include "burr/tick/outbox.h"
+#include "burr/tick/settings.h"
+#include "burr/volume/bone.h"
+
+namespace burr::web {
+
+class PageRecorder {
+ public:
+  static constexpr const char* kFile = "/burr.mcap";  // in the module's own file system
+
+  // bone: as it is before the first tick, after the surface was made; it goes into the file.
+  // settings: as the servo has them.
+  [[nodiscard]] static Result<std::unique_ptr<PageRecorder>> begin(
+      const volume::Bone& bone, const tick::ServoSettings& settings,
+      const device::DeviceSpec& device, double voxel_mm);
+
+  [[nodiscard]] tick::RecorderRings rings() { return {&ticks_, &commands_, &bricks_, nullptr}; }
+  // Writes what waits. Call it at least every kDue ticks.
+  static constexpr int kDue = 200;
+  [[nodiscard]] Status drain() { return pen_->drain(); }
+  // The file is complete after this; nothing more can be recorded. flush: the servo's last bricks.
+  template <class Flush>
+  [[nodiscard]] Status finish(const Flush& flush) {
+    while (flush())
+      if (Status drained = pen_->drain(); !drained.ok()) return drained;
+    if (Status last = pen_->drain_last(false); !last.ok()) return last;
+    return pen_->finish();
+  }
+
+ private:
+  PageRecorder() = default;
+  rt::Ring<tick::TickRow> ticks_{1024};
+  rt::Ring<tick::CommandRow> commands_{256};
+  rt::Ring<tick::BrickRow> bricks_{4096};
+  std::unique_ptr<record::Pen> pen_;
+};
+
+}  // namespace burr::web

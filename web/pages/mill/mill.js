@@ -1,0 +1,386 @@
+// The page "mill": a bone to cut, with mouse or finger. The program runs twice: here it draws the
+// picture and says where the hand is; in worker.js it ticks.
+import {compile, start} from '../common/burr.js';
+import {show} from '../common/skin.js';
+import * as words from '../common/words.js';
+
+const {word, number} = words;
+
+// tick/command.h, CommandKind
+const Command = {spindle_speed: 0, burr_radius: 1, undo: 5, redo: 6, reset: 7};
+// as the window offers them (apps/burr/window/mill/drill.cpp)
+const kSizes = [0.6, 0.8, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 6.5, 7];  // [mm]
+const kRpmStep = 5000, kRpmMost = 80000;
+const kTurn = 0.006;                   // of the view, per pixel of the pointer  [rad]
+const kLeastDepth = 0.5, kMostDepth = 6;  // of a press  [mm]
+const kMostForce = 3.3;                // of the hand; the bar is full there  [N]
+
+const $ = (id) => document.getElementById(id);
+const canvas = $('picture');
+
+// What the tests and the curious read.
+const burr = window.burr = {
+  times: {},  // ms since the page was asked for
+  pictures: 0,
+  state: {ticks: 0, left_out: 0, p50: 0, p99: 0},
+  figures: {},
+  ready: false,
+  voxel: 0.5,
+  // where the burr is in the picture, and its radius there [pixel of the canvas]
+  place: () => [...view.numbers(view.view_burr(), 3)],
+  measure: () => worker.postMessage({kind: 'measure'}),  // times of ticks begin anew
+  hash: () => worker.postMessage({kind: 'hashes'}),      // gives burr.hashes
+  refined: () => view.view_refined() === 1 && waiting.length === 0,
+};
+const mark = (name) => { burr.times[name] ??= Math.round(performance.now()); };
+
+let view = null, worker = null, compiled = null;
+let pointer = null;     // in the picture [pixel of the canvas]
+let pressed = false, depth = 4;
+let answered = true;    // a state has come that was not answered yet
+let dirty = true;       // the picture must be drawn
+let speed = 80000, size = 5;
+let before = 0, drew = false;
+let skin_whole = false;
+const waiting = [];     // patches and parts for the view
+
+main().catch(fail);
+
+async function main() {
+  worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
+  worker.onmessage = ({data}) => hear(data);
+  worker.onerror = (trouble) => fail(new Error(trouble.message || 'worker'));
+  const [module] = await Promise.all([compile(), words.load()]);
+  compiled = module;
+  mark('compiled');
+  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel});
+  dress();
+  say(word('shaping'));
+  view = await start(compiled);
+  const [wide, high] = wanted_size();
+  if (view.view_open(wide, high) === 0) throw new Error(word('no_webgl'));
+  burr.gpu = view.text(view.view_gpu());
+  view.view_bone(burr.voxel);
+  listen();
+  mark('view');
+  requestAnimationFrame(draw);
+}
+
+function fail(trouble) {
+  burr.trouble = String(trouble?.message ?? trouble);
+  const lacking = typeof WebAssembly !== 'object' || trouble instanceof WebAssembly.CompileError;
+  say(lacking ? word('no_module') : word('broken', burr.trouble));
+  console.error(trouble);
+}
+
+// ---- from the worker
+
+function hear(data) {
+  switch (data.kind) {
+    case 'shaped':
+      mark('shaped');
+      break;
+    case 'skin':
+      waiting.push(...data.patches);
+      break;
+    case 'skin_done':
+      skin_whole = true;
+      break;
+    case 'soft':
+      waiting.push(...data.parts.map((one) => ({...one, soft: true})));
+      break;
+    case 'ready':
+      burr.ready = true;
+      view.view_anew();
+      mark('ready');
+      say(word('drag_mill') + '. ' + word('how_mouse'), 12000);
+      break;
+    case 'state':
+      waiting.push(...data.patches, {row: data.row});
+      burr.state = {ticks: data.ticks, left_out: data.left_out, p50: data.p50, p99: data.p99};
+      answered = false;
+      break;
+    case 'hashes':
+      burr.hashes = data;
+      break;
+    case 'saved':
+      if (data.file) keep(data.file);
+      else say(word('not_saved', data.why));
+      break;
+    case 'broken':
+      fail(new Error(data.text));
+      break;
+  }
+  dirty = true;
+}
+
+function take_waiting() {
+  for (const one of waiting) show(view, one);
+  waiting.length = 0;
+}
+
+// ---- each picture
+
+function draw(now) {
+  requestAnimationFrame(draw);
+  if (!view || burr.trouble) return;
+  try {
+    const fresh = waiting.length > 0;
+    take_waiting();
+    if (fresh && !burr.ready) view.view_anew();
+    fit();
+    if (burr.ready) point();
+    const took = drew ? now - before : 0;  // of the picture before, if the one after it follows at once
+    before = now;
+    drew = dirty || fresh || view.view_refined() === 0;
+    if (!drew) return;
+    dirty = false;
+    if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) throw new Error(view.text(view.view_why()));
+    ++burr.pictures;
+    if (skin_whole || burr.pictures > 1 || fresh) mark('first_picture');
+    if (skin_whole) mark('whole_picture');
+    if (fresh) write();
+  } catch (trouble) {
+    fail(trouble);
+  }
+}
+
+// Where the hand is for the pointer, once for each state of the worker.
+function point() {
+  if (answered) return;
+  answered = true;
+  let aim = null;
+  if (pointer) {
+    const at = view.view_aim(pointer.x, pointer.y, pressed ? 1 : 0, 1e-3 * depth, 1, 0);
+    aim = view.bytes(at, view.view_aim_size()).slice();
+  }
+  worker.postMessage({kind: 'next', aim});
+}
+
+function wanted_size() {
+  const scale = Math.min(window.devicePixelRatio || 1, 2);
+  return [Math.max(1, Math.round(canvas.clientWidth * scale)), Math.max(1, Math.round(canvas.clientHeight * scale))];
+}
+function fit() {
+  const [wide, high] = wanted_size();
+  if (canvas.width === wide && canvas.height === high) return;
+  canvas.width = wide;
+  canvas.height = high;
+  dirty = true;
+}
+
+function write() {
+  const [time, force, removed, size_now, rpm, now, touching, flags] = view.numbers(view.view_figures(), 8);
+  const size_mm = Math.round(100 * size_now) / 100;
+  burr.figures = {time, force, removed, size: size_mm, rpm, now, touching, flags};
+  if (!burr.ready) return;
+  $('force').textContent = number(force, 1);
+  $('bar').style.width = `${Math.min(100, 100 * force / kMostForce)}%`;
+  $('removed').textContent = number(removed, 1);
+  $('size').textContent = number(size_mm, size_mm % 1 === 0 ? 0 : 1);
+  $('rpm').textContent = number(rpm, 0);
+  const lost = burr.state.left_out;
+  $('loop').textContent = lost > 0 ? word('left_out', number(lost, 0)) : word('ticks_good');
+}
+
+// ---- from the user
+
+let said = 0;
+function say(text, for_ms = 0) {
+  $('say').textContent = text;
+  clearTimeout(said);
+  if (for_ms > 0) said = setTimeout(() => say(''), for_ms);
+}
+
+function command(what, value = 0) {
+  if (burr.ready) worker.postMessage({kind: 'command', what, value});
+}
+const acts = {
+  undo: () => { command(Command.undo); say(word('undone'), 3000); },
+  redo: () => { command(Command.redo); say(word('redone'), 3000); },
+  reset: () => { command(Command.reset); say(word('back_to_start'), 3000); },
+  smaller: () => resize(-1),
+  larger: () => resize(1),
+  slower: () => change_speed(-kRpmStep),
+  faster: () => change_speed(kRpmStep),
+  less: () => change_depth(1 / 1.25),
+  more: () => change_depth(1.25),
+  home: () => { view.view_home(); dirty = true; },
+  finer: begin_finer,
+  save: () => {
+    if (!burr.ready) return;
+    $('save').disabled = true;
+    worker.postMessage({kind: 'save'});
+  },
+};
+
+// Gives the recording to the user as a file. It goes nowhere else.
+function keep(bytes) {
+  burr.saved = bytes.length;
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([bytes], {type: 'application/octet-stream'}));
+  link.download = 'burr.mcap';
+  link.click();
+  burr.file = link.href;
+  say(word('saved'), 12000);
+}
+
+// the servo refuses a burr of less than four voxels
+function resize(by) {
+  const fitting = kSizes.filter((one) => one >= 4 * burr.voxel);
+  const at = fitting.indexOf(size) + by;
+  if (at < 0 || at >= fitting.length) return;
+  size = fitting[at];
+  command(Command.burr_radius, 0.5e-3 * size);
+}
+function change_speed(by) {
+  speed = Math.min(kRpmMost, Math.max(kRpmStep, speed + by));
+  command(Command.spindle_speed, speed * Math.PI / 30);
+}
+function change_depth(factor) {
+  depth = Math.min(kMostDepth, Math.max(kLeastDepth, depth * factor));
+  $('depth').textContent = number(depth, 1);
+}
+
+// The same bone with finer voxels, in a new worker.
+function begin_finer() {
+  worker.terminate();
+  burr.voxel = burr.voxel === 0.5 ? 0.25 : 0.5;
+  burr.ready = skin_whole = false;
+  burr.times = {};
+  waiting.length = 0;
+  answered = true;
+  speed = 80000;
+  size = 5;
+  view.view_bone(burr.voxel);
+  $('save').disabled = false;
+  dress();
+  say(word('shaping'));
+  worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
+  worker.onmessage = ({data}) => hear(data);
+  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel});
+  dirty = true;
+}
+
+const keys = {
+  u: 'undo', y: 'redo', r: 'reset', '[': 'smaller', ']': 'larger', PageDown: 'smaller', PageUp: 'larger', ',': 'slower',
+  '.': 'faster', '+': 'more', '=': 'more', '-': 'less', f: 'home',
+};
+
+function listen() {
+  const fingers = new Map();  // pointers that are down: id -> {x, y, button}
+  const at = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return {
+      x: (event.clientX - box.left) * canvas.width / Math.max(1, box.width),
+      y: (event.clientY - box.top) * canvas.height / Math.max(1, box.height),
+    };
+  };
+  // two fingers: their middle and how far they are apart
+  const pair = () => {
+    const [a, b] = [...fingers.values()];
+    return {x: 0.5 * (a.x + b.x), y: 0.5 * (a.y + b.y), apart: Math.hypot(a.x - b.x, a.y - b.y)};
+  };
+  const view_by = (event, dx, dy, button) => {
+    const scale = canvas.height / Math.max(1, canvas.clientHeight);
+    if (button === 2) view.view_orbit(-kTurn * dx / scale, kTurn * dy / scale);
+    else view.view_pan(-dx / canvas.height, dy / canvas.height);
+    dirty = true;
+  };
+
+  canvas.addEventListener('pointerdown', (event) => {
+    event.preventDefault();
+    canvas.focus();
+    try {
+      canvas.setPointerCapture(event.pointerId);
+    } catch { /* a pointer of a script */ }
+    fingers.set(event.pointerId, {...at(event), button: event.button});
+    if (fingers.size === 1) pointer = at(event);
+    const touch = event.pointerType === 'touch';
+    pressed = fingers.size === 1 && event.button === 0;
+    if (touch && fingers.size > 1) pressed = false;
+  });
+  canvas.addEventListener('pointermove', (event) => {
+    const finger = fingers.get(event.pointerId);
+    const now = at(event);
+    if (!finger) {
+      if (fingers.size === 0) pointer = now;
+      return;
+    }
+    if (fingers.size === 2 && event.pointerType === 'touch') {
+      const was = pair();
+      Object.assign(finger, now);
+      const is = pair();
+      view_by(event, is.x - was.x, is.y - was.y, 2);
+      if (was.apart > 1) view.view_zoom(is.apart / was.apart);
+    } else if (finger.button === 0) {
+      pointer = now;
+    } else {
+      view_by(event, now.x - finger.x, now.y - finger.y, finger.button);
+    }
+    Object.assign(finger, now);
+  });
+  const lift = (event) => {
+    fingers.delete(event.pointerId);
+    if (fingers.size === 0) pressed = false;
+  };
+  canvas.addEventListener('pointerup', lift);
+  canvas.addEventListener('pointercancel', lift);
+  canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  canvas.addEventListener('wheel', (event) => {
+    event.preventDefault();
+    view.view_zoom(Math.exp(-0.0015 * event.deltaY * (event.deltaMode === 1 ? 33 : 1)));
+    dirty = true;
+  }, {passive: false});
+  window.addEventListener('blur', () => { pressed = false; });
+  window.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLSelectElement) return;
+    const arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+    if (arrow) {
+      view.view_orbit(0.1 * arrow[0], 0.1 * arrow[1]);
+      dirty = true;
+    } else if (keys[event.key]) {
+      acts[keys[event.key]]();
+    } else {
+      return;
+    }
+    event.preventDefault();
+  });
+  // a page that nobody sees stands still
+  document.addEventListener('visibilitychange', () => {
+    pressed = false;
+    worker.postMessage({kind: 'pause', on: document.hidden});
+  });
+  canvas.addEventListener('webglcontextlost', () => fail(new Error('WebGL')));
+  for (const id of Object.keys(acts)) $(id)?.addEventListener('click', () => acts[id]());
+  $('language').addEventListener('change', () => {
+    words.choose($('language').value);
+    dress();
+  });
+}
+
+// The words of the page in the present language.
+function dress() {
+  for (const one of document.querySelectorAll('[data-word]')) one.textContent = word(one.dataset.word);
+  for (const id of ['undo', 'redo', 'reset']) $(id).textContent = word(id);
+  for (const [id, key] of Object.entries({smaller: 'smaller', larger: 'larger', slower: 'slower', faster: 'faster',
+                                          less: 'less_deep', more: 'deeper'})) {
+    $(id).title = word(key);
+    $(id).setAttribute('aria-label', word(key));
+  }
+  $('home').textContent = word('first_view');
+  $('save').textContent = word('save');
+  $('save').title = word('save_tip');
+  $('finer').textContent = `${number(burr.voxel === 0.5 ? 0.25 : 0.5, 2)} mm`;
+  if (burr.voxel === 0.5) $('finer').textContent = word('finer');
+  $('finer').title = word('finer_tip');
+  $('language').setAttribute('aria-label', word('language'));
+  $('language').replaceChildren(...words.languages().map(({code, name}) => {
+    const option = document.createElement('option');
+    option.value = code;
+    option.textContent = name;
+    option.selected = code === words.present();
+    return option;
+  }));
+  $('depth').textContent = number(depth, 1);
+}

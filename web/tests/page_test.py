@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+"""Opens the page "mill" in Chromium without a screen, mills by a scripted pointer, and looks at what comes of it.
+
+    web/tests/page_test.py SITE BURR [PICTURES]      SITE: build/web/site; BURR: the program; PICTURES: a folder to keep them
+
+The server sends no special headers (no COOP, no COEP), as any static host does. How long things take is printed,
+never judged: all waits end after minutes.
+"""
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+
+from chromium import Chromium, Site
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SITE, BURR = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
+PICTURES = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
+WAIT = 300  # [s]
+LEAST_TICKS = 20000
+# Of the picture around the burr, in heights of the picture: the shade of a new edge reaches so far, and dust.
+REACH = 0.22
+
+# A pointer that presses and circles; then it goes to the corner. Events of the page's own: those of the browser wait for
+# a picture each, and a machine without a graphics card draws few.
+POINTER = """(async (milliseconds) => {
+  const canvas = document.getElementById('picture'), box = canvas.getBoundingClientRect();
+  const send = (type, x, y, buttons) => canvas.dispatchEvent(new PointerEvent(type, {clientX: box.left + x,
+      clientY: box.top + y, button: type === 'pointermove' ? -1 : 0, buttons, pointerId: 1, pointerType: 'mouse',
+      bubbles: true, cancelable: true}));
+  const wait = (ms) => new Promise((go) => setTimeout(go, ms));
+  const x = 0.5 * box.width, y = 0.5 * box.height;
+  send('pointermove', x, y, 0);
+  await wait(1500);
+  const place = burr.place();
+  send('pointerdown', x, y, 1);
+  const begun = burr.state.ticks;
+  const end = performance.now() + 120000;
+  while (burr.state.ticks < begun + milliseconds && performance.now() < end) {
+    const turn = performance.now() / 400;
+    send('pointermove', x + 8 * Math.cos(turn), y + 8 * Math.sin(turn), 1);
+    await wait(16);
+  }
+  const pressed = {...burr.figures};
+  send('pointerup', x, y, 0);
+  await wait(300);
+  send('pointermove', 4, box.height - 4, 0);
+  await wait(1500);
+  return {place, pressed};
+})"""
+PARK = """(() => {
+  const canvas = document.getElementById('picture'), box = canvas.getBoundingClientRect();
+  canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + 4, clientY: box.top + box.height - 4,
+      button: -1, pointerId: 1, pointerType: 'mouse', bubbles: true}));
+})()"""
+
+bad = []
+
+
+def check(good, text):
+    print(("good: " if good else "BAD:  ") + text)
+    if not good:
+        bad.append(text)
+
+
+def at_rest(page):
+    """Waits until the picture is complete, and no sentence stands over it."""
+    page.run("document.getElementById('picture').focus()")
+    page.run(PARK)
+    time.sleep(2)
+    page.wait("document.getElementById('say').textContent === ''", WAIT)
+    page.wait("burr.refined()", WAIT)
+    time.sleep(2)
+
+
+def mill(page):
+    page.wait("window.burr && burr.ready", WAIT)
+    print("times [ms]:", page.run("JSON.stringify(burr.times)"), "by", page.run("burr.gpu"))
+    check(page.run("burr.times.first_picture > 0 && burr.pictures > 0"), "the first picture is there")
+    check(page.run("!crossOriginIsolated"), "it works without COOP and COEP")
+    loaded = len(page.requests)
+    at_rest(page)
+    before = page.picture(PICTURES and PICTURES / "before.png")
+    high = page.run("document.getElementById('picture').clientHeight")
+    done = page.run(POINTER + "(5000)")
+    at_rest(page)
+    after = page.picture(PICTURES and PICTURES / "after.png")
+    figures = page.run("burr.figures")
+    check(figures["removed"] > 1, f"removed {figures['removed']:.1f} mm3, more than 1")
+    check(done["pressed"]["touching"] == 1 and 0 < done["pressed"]["force"] <= 3.31,
+          f"the force while pressing is {done['pressed']['force']:.2f} N")
+    x, y, radius = done["place"]
+    far = radius + REACH * high
+    parked = page.run("burr.place()")  # the burr there has turned
+    changed = [at for at in before.different(after)
+               if at[1] < high and math.dist(at, parked[:2]) > 3 * parked[2]]
+    near = [at for at in changed if math.dist(at, (x, y)) <= far]
+    outside = [at for at in changed if math.dist(at, (x, y)) > far]
+    check(len(near) > 100, f"{len(near)} pixels differ around the burr")
+    check(not outside, f"nothing differs elsewhere: {len(outside)} pixels, the first {outside[:3]}")
+    return loaded
+
+
+def undo_and_reset(page):
+    before = page.run("burr.figures.removed")
+    page.run("document.getElementById('undo').click()")
+    page.wait(f"burr.figures.removed < {before} - 1", WAIT)
+    check(True, f"undo brings back {before - page.run('burr.figures.removed'):.1f} mm3")
+    page.run("document.getElementById('smaller').click(); document.getElementById('slower').click()")
+    page.wait("burr.figures.size === 4.5 && Math.round(burr.figures.rpm) === 75000", WAIT)
+    check(True, "another burr and another speed are in the hand")
+
+
+def record(page, downloads):
+    """A recording of at least LEAST_TICKS ticks, with undo, which the program replays to the bit."""
+    page.run(POINTER + "(4000)")
+    page.wait(f"burr.state.ticks >= {LEAST_TICKS}", WAIT)
+    page.run("document.getElementById('save').click()")
+    file = pathlib.Path(downloads) / "burr.mcap"
+    end = time.monotonic() + WAIT
+    while not (file.exists() and file.stat().st_size == (page.run("burr.saved") or -1)):
+        if time.monotonic() > end:
+            check(False, "the recording is saved as burr.mcap")
+            return None
+        time.sleep(0.2)
+    replayed = subprocess.run([BURR, "replay", file, "--check"], capture_output=True, text=True)
+    said = (replayed.stderr + replayed.stdout).strip().splitlines()[-1]
+    same = re.search(r"the same to the bit: (\d+) ticks", said)
+    check(replayed.returncode == 0 and same is not None and int(same[1]) >= LEAST_TICKS, f"burr replay --check: {said}")
+    return file
+
+
+def requests(page, site, loaded):
+    elsewhere = [url for _, url in page.requests
+                 if not url.startswith((site.url, "data:", f"blob:{site.url}"))]
+    check(not elsewhere, f"no request to anywhere else {elsewhere}")
+    later = [url for _, url in page.requests[loaded:] if not url.startswith("blob:")]
+    check(not later, f"no request after the page was loaded {later}")
+
+
+def replay(browser, site, recorded):
+    """The page "replay" shows recordings of the program and of the page; the bone at the end is the program's, to the bit."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "native.mcap"
+        told = subprocess.run([BURR, "--quiet", "mill", "phantom:block", "--voxel-mm", "0.5", "--motion", "pocket", "--burr-mm",
+                               "4", "--seconds", "3", "--record", file, "--embed", "--json"],
+                              capture_output=True, text=True, check=True)
+        milled = json.loads(told.stdout.strip().splitlines()[-1])
+        page = browser.open(site.url + "replay/")
+        page.wait("window.burr?.open", WAIT)
+        page.choose("#file", file)
+        page.wait("burr.ready && burr.shown === 0", WAIT)
+        start = page.run("burr.bone")
+        page.run("(() => { const time = document.getElementById('time'); time.value = burr.seconds;"
+                 "time.dispatchEvent(new Event('input')); })()")
+        page.wait("burr.shown === burr.seconds", WAIT)
+        check("0x" + page.run("burr.bone") == milled["bone_hash"] != "0x" + start,
+              "the bone at the end is that of the program to the bit")
+        removed = page.run("burr.figures.removed")
+        check(abs(removed - milled["removed_mm3"]) < 1e-9, f"removed {removed:.3f} mm3, as the program says")
+        page.wait("burr.refined()", WAIT)
+        page.picture(PICTURES and PICTURES / "replay.png")
+        if recorded:
+            page.choose("#file", recorded)
+            page.wait("burr.ready && burr.shown === 0", WAIT)
+            check(page.run(f"burr.seconds >= {LEAST_TICKS / 1000}"), "the page's own recording opens too")
+        bad_file = pathlib.Path(folder) / "bad.mcap"
+        bad_file.write_bytes(file.read_bytes()[:1000])
+        page.choose("#file", bad_file)
+        page.wait("burr.refused", WAIT)
+        check("bad.mcap" in page.run("burr.refused"), f"a torn file is refused: {page.run('burr.refused')}")
+        later = [url for _, url in page.requests if not url.startswith((site.url, "data:"))]
+        check(not later, f"nothing is sent anywhere {later}")
+        sent = [one for one in page.sent if one != "GET"]
+        check(not sent, f"nothing is uploaded {sent}")
+        check(not page.troubles, f"no errors on the console {page.troubles}")
+        page.close()
+
+
+def languages(browser, site):
+    for code in ("sv", "de"):
+        page = browser.open(f"{site.url}mill/?language={code}")
+        page.wait("document.getElementById('undo')?.textContent", WAIT)
+        wanted = tomllib.loads((ROOT / f"words/{code}.toml").read_text())
+        check(page.run("document.getElementById('undo').textContent") == wanted["undo"] and
+              page.run("document.querySelector('[data-word=force]').textContent") == wanted["force"] and
+              page.run("document.documentElement.lang") == code, f"the words of the window in {code}")
+        check(not page.troubles, f"no errors on the console {page.troubles}")
+        page.close()
+
+
+def main():
+    with tempfile.TemporaryDirectory() as downloads, Site(SITE) as site, Chromium(960, 540) as browser:
+        browser.keep_downloads(downloads)
+        page = browser.open(site.url + "mill/")
+        loaded = mill(page)
+        undo_and_reset(page)
+        recorded = record(page, downloads)
+        requests(page, site, loaded)
+        check(not page.troubles, f"no errors on the console {page.troubles}")
+        print("ticks:", page.run("JSON.stringify(burr.state)"), "pictures:", page.run("burr.pictures"))
+        page.close()
+        replay(browser, site, recorded)
+        languages(browser, site)
+    if bad:
+        sys.exit("\n".join(bad))
+
+
+main()

@@ -1,0 +1,247 @@
+// What the page calls (pages/mill/view.js): the picture, and where the hand is while it follows a
+// point in the picture.
+//
+//     view_open(width, height) -> view_bone(voxel_mm) -> view_patch() ..., view_soft() ...
+//     then, each picture: view_row(), view_aim(), view_show()
+//
+// Thread: the page's. Lengths in m, angles in rad, points of the picture in pixels of the canvas.
+#include <emscripten.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "burr/render/governor.h"
+#include "burr/render/held_tool.h"
+#include "burr/render/renderer.h"
+#include "burr/render/soft_scene.h"
+#include "burr/render/wound.h"
+#include "burr/workshop/work_view.h"
+#include "window/hands/mouse_aim.h"
+#include "work_of_page.h"
+
+namespace {
+
+using namespace burr;
+
+constexpr double kSpin = 9;  // 40 000 rpm are too fast to see, as in the window [rad/s]
+
+struct View {
+  std::unique_ptr<render::Renderer> renderer;
+  render::Scene scene;
+  std::optional<render::FrameGovernor> governor;
+  std::optional<render::Wound> wound;
+  std::optional<app::MouseAim> aim;
+  app::MouseHand::Aim hand;
+  render::HeldTool held;
+  tick::TickRow row;
+  std::vector<volume::Tissue> tissues;  // of the next bone
+  std::string why;                      // of the last call that failed
+};
+
+View& view() {
+  static View one;
+  return one;
+}
+
+// As the window begins (apps/burr/window/mill/make_ready.cpp).
+render::Camera first_camera() {
+  const double height = std::clamp(20 * web::kBurrRadius, 20e-3, 70e-3);
+  return render::view_of_work(web::work_at(), -web::work_into(), 2 * height);
+}
+
+surface::Patch patch_of(const surface::Vertex* vertices, int vertex_count,
+                        const std::uint32_t* triangles, int index_count) {
+  return {{vertices, vertices + vertex_count}, {triangles, triangles + index_count}};
+}
+
+// What was shown before goes; the camera stays.
+void show_bone(const volume::TissueTable& tissues, double voxel_mm) {
+  View& v = view();
+  const render::Camera camera = v.aim ? v.scene.camera : first_camera();
+  const double voxel = 1e-3 * voxel_mm;
+  v.scene = {};
+  v.scene.camera = camera;
+  v.scene.scale_bar = true;
+  v.scene.tissue_colours = render::colours_of(tissues);
+  v.scene.materials = render::materials_of(tissues);
+  v.wound.emplace(voxel, render::bleeding_of(tissues));
+  v.aim.emplace(voxel);
+  v.row = {};
+}
+
+}  // namespace
+
+extern "C" {
+
+// Makes the picture on the canvas "#picture". 0: view_why() says why not.
+EMSCRIPTEN_KEEPALIVE int view_open(int width, int height) {
+  View& v = view();
+  auto renderer = render::Renderer::window("burr", width, height);
+  if (!renderer) {
+    v.why = renderer.error().text;
+    return 0;
+  }
+  v.renderer = std::move(*renderer);
+  v.governor.emplace(v.renderer->software());
+  return 1;
+}
+EMSCRIPTEN_KEEPALIVE const char* view_why() { return view().why.c_str(); }
+EMSCRIPTEN_KEEPALIVE const char* view_gpu() {
+  static std::string name;
+  name = view().renderer->gpu();
+  return name.c_str();
+}
+
+// A bone with voxels of this size; what was shown before goes.
+EMSCRIPTEN_KEEPALIVE void view_bone(double voxel_mm) {
+  show_bone(web::phantom_of_page(1e-3 * voxel_mm).tissues, voxel_mm);
+}
+// The same for another bone: view_tissue() for each of its tissues (core_tissue()), then view_other_bone().
+EMSCRIPTEN_KEEPALIVE void view_tissue(const char* name, int kind, double red, double green,
+                                      double blue, double bleeds) {
+  volume::Tissue tissue;
+  tissue.name = name;
+  tissue.kind = static_cast<volume::TissueKind>(kind);
+  tissue.colour = {static_cast<float>(red), static_cast<float>(green), static_cast<float>(blue)};
+  tissue.bleeds = bleeds;
+  view().tissues.push_back(tissue);
+}
+EMSCRIPTEN_KEEPALIVE void view_other_bone(double voxel_mm) {
+  volume::TissueTable table;
+  table.tissues = std::exchange(view().tissues, {});
+  show_bone(table, voxel_mm);
+}
+// The whole bone, seen from the right.
+EMSCRIPTEN_KEEPALIVE void view_whole() {
+  View& v = view();
+  v.scene.camera = render::whole_view(
+      v.scene, -1.2, 0.2,
+      static_cast<double>(v.renderer->width()) / std::max(1, v.renderer->height()));
+}
+
+EMSCRIPTEN_KEEPALIVE void view_patch(int number, const surface::Vertex* vertices, int vertex_count,
+                                     const std::uint32_t* triangles, int index_count) {
+  View& v = view();
+  render::set_patch(v.scene, number, patch_of(vertices, vertex_count, triangles, index_count));
+  v.wound->stain(v.scene, number);
+}
+EMSCRIPTEN_KEEPALIVE void view_soft(int tissue, const render::SkinVertex* vertices,
+                                    int vertex_count, const std::uint32_t* triangles,
+                                    int index_count) {
+  render::SoftStructure one;
+  one.tissue = static_cast<volume::TissueId>(tissue);
+  render::CoarseMesh mesh;
+  mesh.vertices.assign(vertices, vertices + vertex_count);
+  mesh.levels.push_back({0, {triangles, triangles + index_count}});
+  for (const render::SkinVertex& vertex : mesh.vertices) one.box.extend(vertex.p.cast<double>());
+  one.mesh = std::make_shared<const render::CoarseMesh>(std::move(mesh));
+  view().scene.soft.push_back(std::move(one));
+}
+
+// Draw the whole picture next time. Call it while the bone's first patches come: the renderer takes the
+// bone that it drew last for the whole bone, and draws only what differs.
+EMSCRIPTEN_KEEPALIVE void view_anew() {
+  constexpr double kUnseen = 1e-9;
+  double& gloss = view().scene.look.gloss;
+  gloss = render::Look{}.gloss + (gloss == render::Look{}.gloss ? kUnseen : 0);
+}
+
+// The newest row of the ticks, tick::TickRow.
+EMSCRIPTEN_KEEPALIVE void view_row(const void* bytes) {
+  View& v = view();
+  std::memcpy(static_cast<void*>(&v.row), bytes, sizeof v.row);
+  workshop::put_tool(v.scene, v.row, false);
+  v.wound->see(workshop::wound_tick(v.row, web::kRate));
+}
+// What the page writes of the row: time [s], force [N], removed [mm^3], diameter of the burr [mm],
+// speed that is set [rpm], speed now [rpm], touching, flags, pressed [mm].
+EMSCRIPTEN_KEEPALIVE const double* view_figures() {
+  static double figures[8];
+  const tick::TickRow& row = view().row;
+  constexpr double kRpm = 60 / (2 * 3.14159265358979323846);
+  figures[0] = static_cast<double>(row.tick) / web::kRate;
+  figures[1] = row.contact.force.norm();
+  figures[2] = 1e9 * (row.ledger.removed - row.ledger.undone);
+  figures[3] = 2e3 * row.tool.radius;
+  figures[4] = row.tool.full_speed * kRpm;
+  figures[5] = row.spindle_rad_s * kRpm;
+  figures[6] = row.contact.touching ? 1 : 0;
+  figures[7] = row.contact.flags;
+  return figures;
+}
+
+// Where the hand shall be for this point of the picture: the bytes of a MouseHand::Aim for
+// core_aim(). pressed: not 0, at `depth` below the surface and this share of the speed.
+EMSCRIPTEN_KEEPALIVE const void* view_aim(double x, double y, int pressed, double depth,
+                                          double spindle, int left_handed) {
+  View& v = view();
+  const render::Ray ray =
+      render::ray_through(v.scene.camera, x, y, v.renderer->width(), v.renderer->height());
+  std::optional<app::MouseAim::Push> push;
+  if (pressed != 0) push = {depth, spindle};
+  v.hand = v.aim->at(v.scene, ray, push, left_handed != 0);
+  return &v.hand;
+}
+EMSCRIPTEN_KEEPALIVE int view_aim_size() { return sizeof(app::MouseHand::Aim); }
+// Whether there is bone at this point.
+EMSCRIPTEN_KEEPALIVE int view_hits(double x, double y) {
+  View& v = view();
+  return render::pick(v.scene, render::ray_through(v.scene.camera, x, y, v.renderer->width(),
+                                                   v.renderer->height()))
+             ? 1
+             : 0;
+}
+// Where the burr is in the picture: x, y and its radius there [pixel].
+EMSCRIPTEN_KEEPALIVE const double* view_burr() {
+  static double at[3];
+  const View& v = view();
+  const render::Camera& camera = v.scene.camera;
+  const double high = v.renderer->height();
+  const math::Vec3 from = v.row.contact.proxy - camera.eye();
+  const double far = std::max(1e-6, -from.dot(camera.backward()));
+  const double pixels = high / (2 * std::tan(0.5 * camera.field_of_view) * far);
+  at[0] = 0.5 * v.renderer->width() + pixels * from.dot(camera.right());
+  at[1] = 0.5 * high - pixels * from.dot(camera.above());
+  at[2] = pixels * v.row.tool.radius;
+  return at;
+}
+
+EMSCRIPTEN_KEEPALIVE void view_orbit(double azimuth_by, double elevation_by) {
+  render::orbit(view().scene.camera, azimuth_by, elevation_by);
+}
+EMSCRIPTEN_KEEPALIVE void view_zoom(double factor) { render::zoom(view().scene.camera, factor); }
+EMSCRIPTEN_KEEPALIVE void view_pan(double right_by, double up_by) {
+  render::pan(view().scene.camera, right_by, up_by);
+}
+EMSCRIPTEN_KEEPALIVE void view_home() { view().scene.camera = first_camera(); }
+
+// Draws. now: time of the page [s]; took: how long the picture before this one took [s]. 0: view_why()
+// says why not.
+EMSCRIPTEN_KEEPALIVE int view_show(double now, double took, int left_handed) {
+  View& v = view();
+  static double before = 0;
+  const double seconds = std::clamp(now - before, 0.0, 0.1);
+  before = now;
+  if (v.scene.burr.visible) {
+    v.scene.burr.world_from_tool =
+        v.held.at(v.scene, v.row.contact.proxy, left_handed != 0, seconds);
+    if (v.row.spindle_rad_s > 0)
+      v.scene.burr.turn = std::remainder(v.scene.burr.turn + kSpin * seconds, 6.2832);
+  }
+  v.governor->end(took, v.renderer->figures().redrawn, now);
+  v.scene.quality = v.governor->begin(v.scene.camera, now);
+  v.wound->renew(v.scene, now);
+  const Status shown = v.renderer->show(v.scene);
+  if (!shown) v.why = shown.error().text;
+  return shown ? 1 : 0;
+}
+// 1: nothing is left out of the picture.
+EMSCRIPTEN_KEEPALIVE int view_refined() { return view().renderer->refined() ? 1 : 0; }
+
+}  // extern "C"
