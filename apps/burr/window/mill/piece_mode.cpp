@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "burr/math/turn.h"
+#include "burr/rt/flags.h"
 #include "burr/surface/mesher.h"
 #include "window/shell/words.h"
 
@@ -95,6 +96,8 @@ std::string PieceMode::look(bool open, const tick::TickRow& row) {
   } else if (putting_ && (mover_.take_refusal() || state == sim::PieceMover::State::refused)) {
     putting_ = false;
     text = say(Word::piece_refused, mover_.why());
+  } else if (putting_ && !mover_.busy()) {
+    putting_ = false;  // an undo or a reset came first
   }
   follow();
   if (!open) {
@@ -163,14 +166,18 @@ void PieceMode::leave() {
 
 void PieceMode::end() {
   constexpr auto kPause = std::chrono::milliseconds(10);
-  constexpr int kPauses = 50;
+  constexpr int kPauses = 1000;
   leave();
-  for (int n = 0; n < kPauses && mover_.lifts(); ++n) {
-    tick::TickRow row;
+  tick::TickRow row;
+  const auto restoring = [&row] { return (row.contact.flags & rt::kFlagRestoring) != 0; };
+  for (int n = 0; n < kPauses && (n == 0 || mover_.busy() || restoring()); ++n) {
+    if (mover_.take_refusal()) mover_.leave();  // it could not be put down
+    std::this_thread::sleep_for(kPause);
     if (session_.view(row)) held_ = row.piece;
     static_cast<void>(mover_.look(held_));
-    std::this_thread::sleep_for(kPause);
   }
+  putting_ = false;
+  taken_.reset();
 }
 
 Pose PieceMode::pose_of(const Taken& taken) const {
@@ -180,7 +187,8 @@ Pose PieceMode::pose_of(const Taken& taken) const {
 }
 
 void PieceMode::take(std::size_t row) {
-  if (!list_ || row >= list_->size() || putting_) return;
+  // one after the other: another may still be on its way back
+  if (!list_ || row >= list_->size() || taken_ || mover_.busy()) return;
   Taken taken;
   taken.piece = (*list_)[row];
   taken.row = row;
@@ -256,7 +264,7 @@ std::string PieceMode::plan_text() const {
 PiecesState PieceMode::state() const {
   PiecesState state;
   state.looking = list_ == nullptr;
-  state.putting = putting_;
+  state.putting = putting_ || (!taken_ && mover_.busy());
   if (list_)
     for (const edit::PieceStore::Found& piece : *list_)
       state.rows.push_back({1e9 * piece.volume,

@@ -39,7 +39,8 @@ class PieceMode {
   [[nodiscard]] bool taken() const { return taken_.has_value(); }
   void take(std::size_t row);
   void leave();
-  // Before the session stops: a lifted piece goes back, and this waits for it, half a second at most.
+  // Before the session stops: a lifted piece goes back, or is put down if it was asked to. Waits for it,
+  // mostly some hundredths of a second; 10 s at most.
   void end();
   void put_down();
   // In the picture's axes, by keys and mouse.
