@@ -407,6 +407,32 @@ TEST(HeldPiece, ALostHandLetsGo) {
   EXPECT_EQ(bench.row.piece.state, tick::PieceRow::kLies);
 }
 
+// A hand that is lost does not keep the piece out: it goes back, or is put down, without it.
+TEST(HeldPiece, ALostHandDoesNotKeepItOut) {
+  for (const bool puts : {false, true}) {
+    Bench bench;
+    ASSERT_TRUE(bench.lift());
+    bench.grab();
+    bench.go({0.3, 4, 3});
+    bench.now.valid = false;
+    bench.ticks(100);
+    EXPECT_TRUE(bench.servo.piece().lifted());
+    if (puts)
+      EXPECT_TRUE(bench.put_down());
+    else
+      bench.command(CommandKind::leave_piece);
+    EXPECT_FALSE(bench.servo.restoring());
+    EXPECT_FALSE(bench.servo.piece().lifted());
+    EXPECT_EQ(bench.row.contact.force.norm(), 0);
+    EXPECT_EQ(bench.bone->content_hash() == bench.at_start, !puts);
+    EXPECT_EQ(bench.units_at_start - units(*bench.bone), bench.missing());
+    bench.now.valid = true;
+    bench.now.pedal = 0;
+    bench.ticks(700);
+    EXPECT_EQ(bench.row.contact.flags & rt::kFlagRestoring, 0U);
+  }
+}
+
 // A place for it by number: it goes there as far as the bone lets it, and nobody is pushed.
 TEST(HeldPiece, GoesWhereItIsWantedAsFarAsTheBoneLetsIt) {
   Bench bench;
@@ -485,7 +511,8 @@ TEST(HeldPiece, GivesTheSameBitsOnEveryInstructionSet) {
   rt::force_simd(best);
 }
 
-// Lifted, carried, left; lifted, carried, put down, undone: recorded and replayed.
+// Lifted, carried out of the volume, refused there and left; lifted, carried, put down: recorded and
+// replayed.
 TEST(HeldPiece, ARecordingReplaysToTheBit) {
   const test::Folder folder;
   const std::string path = (folder.path() / "held.mcap").string();
@@ -521,12 +548,22 @@ TEST(HeldPiece, ARecordingReplaysToTheBit) {
       session.run(0.3, quiet);
     };
     go({0, 0, 0}, 0);
-    ASSERT_TRUE(lift_piece(session, store, Vec3(0, 0, 2) * kMm, quiet).ok());
+    const auto first = lift_piece(session, store, Vec3(0, 0, 2) * kMm, quiet);
+    ASSERT_TRUE(first.ok());
     go({0, 0, 0}, 1);
-    go({1, 0.5, 0}, 1);
-    session.command({CommandKind::leave_piece, 0});
-    go({0, 0, 0}, 0);
+    for (int n = 0; n < 5; ++n) go({0, 0, 3}, 1);
+    EXPECT_GT(session.servo().piece().pose().p.z(), 14 * kMm);
+    const auto refused = put_down(session, store, *first, quiet);
+    ASSERT_FALSE(refused.ok()) << "outside of the volume";
+    EXPECT_TRUE(session.servo().piece().lifted());
+    const auto left = leave_piece(session);
+    ASSERT_TRUE(left.ok()) << left.error().text;
+    EXPECT_TRUE(*left);
     EXPECT_EQ(session.bone().content_hash(), at_start);
+    const auto none = leave_piece(session);
+    ASSERT_TRUE(none.ok()) << none.error().text;
+    EXPECT_FALSE(*none) << "none is out";
+    go({0, 0, -15}, 0);
     const auto lifted = lift_piece(session, store, Vec3(0, 0, 2) * kMm, quiet);
     ASSERT_TRUE(lifted.ok()) << lifted.error().text;
     go({0, 0, 0}, 1);

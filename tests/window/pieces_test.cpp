@@ -4,9 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
+#include "burr/rt/flags.h"
 #include "burr/volume/pieces.h"
 #include "burr/volume/sample.h"
 #include "two_blocks.h"
@@ -98,6 +102,119 @@ TEST_F(PiecesWindow, WhatIsPutDownLiesWhereItWasShown) {
            {"it lies there", told(Word::piece_lies), [] { close_window(); }}});
   const Vec3 by = boxed(ready.session->bone()) - before;
   EXPECT_LT((by - 3.5 * kMm * right).norm(), kBlockVoxel) << (1e3 * by).transpose();
+}
+
+// The piece without the page: looked at as often as a picture would.
+class LiftedPiece : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = ready_two_blocks();
+    ASSERT_TRUE(made) << made.error().text;
+    ready_.emplace(std::move(*made));
+    at_start_ = session().bone().content_hash();
+    mode_.emplace(session(), nullptr);
+    session().start();
+  }
+  void TearDown() override {
+    mode_.reset();
+    ready_.reset();
+  }
+  sim::Session& session() { return *ready_->session; }
+  bool until(const std::function<bool()>& done) {
+    for (int n = 0; n < 3000; ++n) {
+      static_cast<void>(session().view(row_));
+      if (const std::string told = mode_->look(true, row_); !told.empty()) told_ = told;
+      if (done()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  [[nodiscard]] bool out() const { return row_.piece.state != tick::PieceRow::kNone; }
+  // Also where the list is older than what came back.
+  bool taken_out() {
+    return until([&] {
+      const PiecesState state = mode_->state();
+      if (!state.taken && !state.putting && !state.rows.empty()) mode_->take(0);
+      return mode_->taken() && mode_->state().felt && out();
+    });
+  }
+  [[nodiscard]] bool at_rest() const { return (row_.contact.flags & rt::kFlagRestoring) == 0; }
+  std::uint64_t hash_at_end() {
+    mode_->end();
+    mode_.reset();
+    session().stop();
+    EXPECT_FALSE(session().servo().restoring());
+    EXPECT_FALSE(session().servo().piece().lifted());
+    return session().bone().content_hash();
+  }
+
+  std::optional<Ready> ready_;
+  std::optional<PieceMode> mode_;
+  tick::TickRow row_;
+  std::string told_;
+  std::uint64_t at_start_ = 0;
+};
+
+TEST_F(LiftedPiece, GoesBackWhenTheSessionEnds) {
+  ASSERT_TRUE(taken_out());
+  mode_->shift({5 * kMm, 2 * kMm, 0});
+  ASSERT_TRUE(until([&] { return row_.piece.p.y() > 1.5 * kMm; }));
+  EXPECT_EQ(hash_at_end(), at_start_);
+}
+
+// On its way out, and never out.
+TEST_F(LiftedPiece, GoesBackWhenTheSessionEndsAtOnce) {
+  ASSERT_TRUE(until([&] { return !mode_->state().rows.empty(); }));
+  mode_->take(0);
+  EXPECT_EQ(hash_at_end(), at_start_);
+}
+
+TEST_F(LiftedPiece, IsPutDownWholeWhenTheSessionEndsMeanwhile) {
+  ASSERT_TRUE(taken_out());
+  mode_->shift({0, 4 * kMm, 0});
+  ASSERT_TRUE(until([&] { return row_.piece.p.y() > 3.5 * kMm; }));
+  mode_->put_down();
+  EXPECT_NE(hash_at_end(), at_start_);
+  const volume::PieceFinder finder(std::as_const(session().bone()));
+  ASSERT_EQ(finder.pieces().size(), 2U);
+  EXPECT_NEAR(session().outcome().ledger.moved, 0, 1e-13) << "whole voxels: nothing is lost";
+}
+
+// Where it cannot be put down it stays in the hand, or goes back at the end.
+TEST_F(LiftedPiece, IsNotLostWhereItIsRefused) {
+  ASSERT_TRUE(taken_out());
+  mode_->shift({0, 0, 9 * kMm});
+  ASSERT_TRUE(until([&] { return row_.piece.p.z() > 8.5 * kMm; }));
+  mode_->put_down();
+  ASSERT_TRUE(until([&] { return !told_.empty(); }));
+  EXPECT_NE(told_.find("volume"), std::string::npos) << told_;
+  EXPECT_TRUE(mode_->taken());
+  EXPECT_TRUE(out());
+  mode_->put_down();
+  EXPECT_EQ(hash_at_end(), at_start_);
+}
+
+// One after another: left, undone while it was being put down, and taken once more.
+TEST_F(LiftedPiece, IsTakenAgainAfterItWasLeftAndUndone) {
+  ASSERT_TRUE(taken_out());
+  mode_->leave();
+  EXPECT_FALSE(mode_->taken());
+  mode_->take(0);
+  EXPECT_FALSE(mode_->taken()) << "it is on its way back";
+  ASSERT_TRUE(until([&] { return !out() && at_rest(); }));
+  EXPECT_EQ(session().bone().content_hash(), at_start_);
+  ASSERT_TRUE(taken_out());
+  mode_->take(0);
+  EXPECT_TRUE(mode_->state().felt) << "it is in the hand already";
+  mode_->put_down();
+  session().command({tick::CommandKind::undo, 0});
+  ASSERT_TRUE(until([&] { return !mode_->taken() && !mode_->state().putting && at_rest(); }));
+  EXPECT_EQ(session().bone().content_hash(), at_start_);
+  ASSERT_TRUE(taken_out());
+  session().command({tick::CommandKind::reset, 0});
+  ASSERT_TRUE(until([&] { return !mode_->taken() && at_rest(); }));
+  EXPECT_EQ(session().bone().content_hash(), at_start_);
+  EXPECT_EQ(hash_at_end(), at_start_);
 }
 
 // The second hand grabs while the first one still holds: the piece stays where it is, and follows the

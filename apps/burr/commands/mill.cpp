@@ -288,15 +288,27 @@ void carry_on(device::HandPath& path, const Carry& carry) {
   }
 }
 
-Status carry_piece(const Carry& carry, sim::Session& session, edit::PieceStore& store) {
+Status carry(const Carry& carry, sim::Session& session, edit::PieceStore& store) {
   const double began = session.outcome().seconds;
   const auto lifted = sim::lift_piece(session, store, carry.near, progress());
   if (!lifted) return lifted.error();
   const double rest = kLiftTime - (session.outcome().seconds - began);
   if (rest < 0) return error(Trouble::internal, "the piece was not lifted in time");
   session.run(rest + carry.path.duration() - carry.path.points.front().t, progress());
+  if (interrupted()) return error(Trouble::interrupted, "stopped while a piece was carried");
   const auto put = sim::put_down(session, store, *lifted, progress());
   return put ? fine() : Status(put.error());
+}
+
+// The bone keeps the piece, also where it cannot be put down.
+Status carry_piece(const Carry& way, sim::Session& session, edit::PieceStore& store) {
+  const Status carried = carry(way, session, store);
+  if (carried.ok()) return carried;
+  const auto left = sim::leave_piece(session);
+  if (!left) return left.error();
+  if (!*left) return carried;
+  return error(carried.error().trouble,
+               fmt::format("{}; it was put back to where it lay", carried.error().text));
 }
 
 // The hand stays where the path ends, with the spindle off.

@@ -126,6 +126,28 @@ Result<PieceMoved> put_down(Session& session, edit::PieceStore& store, const Pie
              lifted.volume, progress);
 }
 
+Result<bool> leave_piece(Session& session) {
+  constexpr double kStep = 0.05, kMost = 60;  // [s]
+  NoProgress quiet;
+  bool told = false;
+  for (double waited = 0; waited < kMost; waited += kStep) {
+    const tick::Servo& servo = session.servo();
+    const tick::MoveState now = servo.move_state();
+    const bool moves = now == tick::MoveState::waiting || now == tick::MoveState::moving;
+    if (!moves && !servo.restoring()) {
+      if (!servo.piece().lifted()) break;
+      if (told) return error(Trouble::internal, "the piece is still out of the bone");
+      session.command({tick::CommandKind::leave_piece, 0});
+      told = true;
+    }
+    session.run(kStep, quiet);
+  }
+  if (session.servo().piece().lifted() || session.servo().restoring())
+    return error(Trouble::internal, "the piece did not go back into the bone in time");
+  if (told) session.run(kRest, quiet);
+  return told;
+}
+
 bool moves_pieces(record::Player& player) {
   record::StepCursor steps = player.steps();
   for (record::Step step; steps.next(step);)

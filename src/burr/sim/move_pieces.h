@@ -54,6 +54,11 @@ struct PieceLifted {
 // Puts it down where it is now: where the bone stopped it. Errors as move_piece().
 [[nodiscard]] Result<PieceMoved> put_down(Session& session, edit::PieceStore& store,
                                           const PieceLifted& lifted, Progress& progress);
+// A piece that is out of the bone, or on its way out or in, goes back to where it lay; none: nothing
+// happens. Lets the session run until it is there, also after an interrupt: the bone must not lose it.
+// False: there was none, or it had just been put down. Error: it is still out, as where the servo does
+// not answer.
+[[nodiscard]] Result<bool> leave_piece(Session& session);
 // The move that puts it down at this pose of its body.
 [[nodiscard]] edit::PieceMove put_at(std::uint32_t piece, const math::Vec3& centre,
                                      const math::Pose& body);

@@ -178,6 +178,11 @@ void PieceMover::send(Result<Prepared>& ready) {
     state_ = State::refused;
     return;
   }
+  if (ready->lifts && lifted_ && lifted_->leaves) {  // it need not come out any more
+    lifted_.reset();
+    state_ = State::none;
+    return;
+  }
   under_way_ = std::move(*ready);
   const bool sent = under_way_->lifts
                         ? session_.lift_piece(under_way_->move, under_way_->bricks.bricks)
@@ -220,11 +225,15 @@ void PieceMover::see_lifted(const tick::PieceRow& piece) {
     lifted_->rested = there && piece.p == lifted_->last ? lifted_->rested + 1 : 0;
     lifted_->last = piece.p;
     const bool rested = lifted_->rested >= kLooks;
-    if (lifted_->seen && !there) {
+    // an undo may have put it back before a row showed it out
+    constexpr int kUnseen = 100, kAgain = 50;
+    const bool never_seen = !lifted_->seen && ++lifted_->unseen >= kUnseen;
+    if ((lifted_->seen && !there) || never_seen) {
       lifted_.reset();
       state_ = State::none;
-    } else if (lifted_->seen && std::exchange(lifted_->leaves, false)) {
-      session_.command({tick::CommandKind::leave_piece, 0});
+    } else if (lifted_->seen && lifted_->leaves) {
+      // again where it did not reach the servo
+      if (lifted_->left++ % kAgain == 0) session_.command({tick::CommandKind::leave_piece, 0});
     } else if (lifted_->puts_down && piece.state == tick::PieceRow::kHeld) {
       session_.command({tick::CommandKind::let_go, 0});
     } else if (lifted_->puts_down && rested) {
@@ -254,6 +263,7 @@ std::vector<PieceMover::News> PieceMover::look(const tick::PieceRow& piece) {
 bool PieceMover::lift(const edit::PieceStore::Found& piece) {
   if (lifted_ || state_ == State::preparing || state_ == State::sent) return false;
   lifted_ = Lifted{piece.number, piece.centre};
+  refusal_ = false;
   want({further(piece, math::Vec3::Zero(), math::Quat::Identity()), true});
   return true;
 }
@@ -271,7 +281,9 @@ bool PieceMover::put_down() {
 }
 
 void PieceMover::leave() {
-  if (lifted_) lifted_->leaves = true;
+  if (!lifted_) return;
+  lifted_->leaves = true;
+  lifted_->puts_down = false;
 }
 
 void PieceMover::take() {

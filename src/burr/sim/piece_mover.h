@@ -72,8 +72,13 @@ class PieceMover {
   void shift(const math::Pose& body);
   // Puts the lifted piece down where it is then; the hand lets go of it first. False: none is lifted.
   bool put_down();
-  // The lifted piece goes back to where it lay.
+  // The lifted piece goes back to where it lay; one that is not out yet stays there. Not while it is being
+  // put down, but once that was refused.
   void leave();
+  // The bone is being prepared or written: a session that ended now would lose a piece, or a part of one.
+  [[nodiscard]] bool busy() const {
+    return lifts() || state_ == State::preparing || state_ == State::sent;
+  }
   [[nodiscard]] State state() const { return state_; }
   // A lifted piece could not be put down since the last call; it is still lifted.
   [[nodiscard]] bool take_refusal() { return std::exchange(refusal_, false); }
@@ -99,10 +104,12 @@ class PieceMover {
     std::uint32_t number = 0;
     math::Vec3 centre = math::Vec3::Zero();  // where it came free
     bool seen = false;                       // in a row
+    int unseen = 0;                          // looks since it came out
     bool puts_down = false;                  // once the hand has let go and it has come to rest
     int rested = 0;                          // looks
     math::Vec3 last = math::Vec3::Zero();    // place
     bool leaves = false;                     // once it is out
+    int left = 0;                            // looks since then
   };
   struct Wanted {
     edit::PieceMove move;

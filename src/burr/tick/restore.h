@@ -39,6 +39,11 @@ class Restore {
   bool begin(CommandKind kind) BURR_RT;
   [[nodiscard]] bool active() const BURR_RT { return state_ != State::none; }
 
+  // A piece leaves the bone, is put down or goes back: this needs no hand.
+  [[nodiscard]] bool moves_piece() const BURR_RT {
+    return active() && (moving_ != nullptr || back_);
+  }
+
   // Another thread: these are the bricks of the next command `move_piece`. They must live until
   // move_state() is neither waiting nor moving. False: another move is not finished.
   [[nodiscard]] bool lay_ready(const edit::MovedBricks& bricks);

@@ -138,7 +138,7 @@ void Servo::choose_touch() BURR_RT {
 bool Servo::will_carry(bool usable) BURR_RT {
   if (!piece_.grips(hand_.state(), usable)) {
     hand_.hold_nothing();
-    if (usable) piece_.rest(hand_.state().world_from_tool.p);
+    piece_.rest(usable ? hand_.state().world_from_tool.p : piece_.position());
     return false;
   }
   if (!hand_.engaged()) {
@@ -154,6 +154,11 @@ bool Servo::will_carry(bool usable) BURR_RT {
 bool Servo::will_feel(bool usable) BURR_RT {
   if (!usable) {
     if (piece_.lifted()) static_cast<void>(will_carry(false));
+    // a piece does not wait for a hand: the hand is released in any case
+    if (restore_.moves_piece()) {
+      restore_.step(row_.contact.flags);
+      row_.contact.flags |= rt::kFlagRestoring;
+    }
     hand_.skip_touch();
     return false;
   }

@@ -24,7 +24,7 @@ PieceMode::Carrier carrier(const tick::TickRow& row, const device::DeviceSpec& d
 
 void Mill::look_at_pieces() {
   const bool open = menu_ == Menu::pieces;
-  note(pieces_->look(open));
+  note(pieces_->look(open, row_));
   carry_piece();
   pieces_->show(scene_, open);
 }

@@ -2,12 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <thread>
 #include <utility>
 
 #include "burr/math/turn.h"
+#include "burr/rt/flags.h"
 #include "burr/surface/mesher.h"
 #include "window/shell/words.h"
 
@@ -76,30 +79,35 @@ double degrees_of(const Quat& q) { return math::rotation_vector(q).norm() / kDeg
 PieceMode::PieceMode(sim::Session& session, const scenario::Lesson* lesson)
     : session_(session), lesson_(lesson), mover_(session) {}
 
-std::string PieceMode::look(bool open) {
+std::string PieceMode::look(bool open, const tick::TickRow& row) {
   std::string text;
-  for (const sim::PieceMover::News& news : mover_.look()) {
+  held_ = row.piece;
+  for (const sim::PieceMover::News& news : mover_.look(row.piece)) {
     if (news.dust && news.volume < kLeastNewsMm3 * 1e-9) continue;  // it would read as 0.0 mm³
     text = news.dust ? say(Word::piece_dust, news.count, 1e9 * news.volume)
                      : say(Word::piece_free, 1e9 * news.volume);
   }
-  if (putting_ && mover_.state() == sim::PieceMover::State::put) {
+  const sim::PieceMover::State state = mover_.state();
+  if (putting_ && state == sim::PieceMover::State::put) {
     putting_ = false;
     taken_.reset();
     text = mover_.overlap() > 0.05e-9 ? say(Word::piece_overlaps, 1e9 * mover_.overlap())
                                       : std::string(word(Word::piece_lies));
-  } else if (putting_ && mover_.state() == sim::PieceMover::State::refused) {
+  } else if (putting_ && (mover_.take_refusal() || state == sim::PieceMover::State::refused)) {
     putting_ = false;
     text = say(Word::piece_refused, mover_.why());
+  } else if (putting_ && !mover_.busy()) {
+    putting_ = false;  // an undo or a reset came first
   }
+  follow();
   if (!open) {
-    taken_.reset();
+    leave();
     list_.reset();
     asked_ = false;
     return text;
   }
   const std::uint64_t writes = session_.writes();
-  if (taken_ || putting_) return text;
+  if (taken_ || putting_ || mover_.lifts()) return text;
   if (list_ && writes != listed_writes_) {  // it was cut, undone, put down
     list_.reset();
     asked_ = false;
@@ -117,6 +125,61 @@ std::string PieceMode::look(bool open) {
   return text;
 }
 
+// The ghost is where the bone stopped the piece.
+void PieceMode::follow() {
+  if (!taken_ || !taken_->lifts) return;
+  Taken& taken = *taken_;
+  if (!mover_.lifts()) {
+    if (mover_.state() == sim::PieceMover::State::refused)
+      taken.lifts = false;  // it cannot come out: a picture only
+    else if (!putting_)
+      taken_.reset();  // an undo or a reset has put it back
+    return;
+  }
+  if (!out()) return;
+  const Quat turn(held_.turn[3], held_.turn[0], held_.turn[1], held_.turn[2]);
+  const Vec3 by = held_.p - taken.piece.now * taken.piece.centre;
+  const Quat further = math::normalized(math::product(turn, taken.piece.now.q.conjugate()));
+  if (!std::exchange(taken.seen_out, true) && taken.asked) {
+    want();  // it was moved while it was still on its way out
+    return;
+  }
+  taken.stale = taken.stale || by != taken.by || further.coeffs() != taken.turn.coeffs();
+  taken.by = by;
+  taken.turn = further;
+}
+
+// The piece goes where it was wanted, as far as the bone lets it.
+void PieceMode::want() {
+  Taken& taken = *taken_;
+  taken.stale = taken.asked = true;
+  if (!taken.lifts || !out()) return;
+  const Pose to = pose_of(taken);
+  mover_.shift({to * taken.piece.centre, to.q});
+}
+
+void PieceMode::leave() {
+  if (!taken_ || putting_) return;
+  if (taken_->lifts) mover_.leave();
+  taken_.reset();
+}
+
+void PieceMode::end() {
+  constexpr auto kPause = std::chrono::milliseconds(10);
+  constexpr int kPauses = 1000;
+  leave();
+  tick::TickRow row;
+  const auto restoring = [&row] { return (row.contact.flags & rt::kFlagRestoring) != 0; };
+  for (int n = 0; n < kPauses && (n == 0 || mover_.busy() || restoring()); ++n) {
+    if (mover_.take_refusal()) mover_.leave();  // it could not be put down
+    std::this_thread::sleep_for(kPause);
+    if (session_.view(row)) held_ = row.piece;
+    static_cast<void>(mover_.look(held_));
+  }
+  putting_ = false;
+  taken_.reset();
+}
+
 Pose PieceMode::pose_of(const Taken& taken) const {
   const Vec3 centre = taken.piece.now * taken.piece.centre;
   const Pose further = {centre + taken.by - taken.turn * centre, taken.turn};
@@ -124,22 +187,30 @@ Pose PieceMode::pose_of(const Taken& taken) const {
 }
 
 void PieceMode::take(std::size_t row) {
-  if (!list_ || row >= list_->size() || putting_) return;
+  // one after the other: another may still be on its way back
+  if (!list_ || row >= list_->size() || taken_ || mover_.busy()) return;
   Taken taken;
   taken.piece = (*list_)[row];
   taken.row = row;
   taken.plain = mesh_of(*taken.piece.bone);
   if (lesson_ != nullptr) taken.plan = workshop::plan_of(*lesson_, *taken.piece.bone);
+  taken.lifts = mover_.lift(taken.piece);
   taken_ = std::move(taken);
 }
 
 void PieceMode::put_down() {
-  if (taken_ && !putting_) putting_ = mover_.put(taken_->piece, taken_->by, taken_->turn);
+  if (!taken_ || putting_) return;
+  putting_ =
+      taken_->lifts ? mover_.put_down() : mover_.put(taken_->piece, taken_->by, taken_->turn);
 }
 
 void PieceMode::carry(const Carrier& by) {
   if (!taken_ || putting_) return;
   Taken& taken = *taken_;
+  if (out() && by.which == 0) {  // the tick does it
+    taken.grip.reset();
+    return;
+  }
   if (!by.grabs) {
     taken.grip.reset();
     taken.may_grab = true;
@@ -153,14 +224,14 @@ void PieceMode::carry(const Carrier& by) {
   if (by.turns)
     taken.turn =
         math::normalized(math::product(math::product(by.hand.q, grip.held.conjugate()), grip.turn));
-  taken.stale = true;
+  want();
 }
 
 void PieceMode::shift(const Vec3& by) {
   if (!taken_ || putting_) return;
   taken_->grip.reset();  // the hand grabs anew, from here
   taken_->by += by;
-  taken_->stale = true;
+  want();
 }
 
 void PieceMode::turn(const Vec3& axis, double degrees) {
@@ -168,7 +239,7 @@ void PieceMode::turn(const Vec3& axis, double degrees) {
   taken_->grip.reset();
   taken_->turn = math::normalized(
       math::product(Quat(Eigen::AngleAxisd(degrees * kDegree, axis)), taken_->turn));
-  taken_->stale = true;
+  want();
 }
 
 void PieceMode::set(const std::array<double, 3>& mm, const std::array<double, 3>& degrees) {
@@ -178,7 +249,7 @@ void PieceMode::set(const std::array<double, 3>& mm, const std::array<double, 3>
   const Vec3 turn = Vec3(degrees[0], degrees[1], degrees[2]) * kDegree;
   const double angle = turn.norm();
   taken_->turn = angle > 0 ? Quat(Eigen::AngleAxisd(angle, turn / angle)) : Quat(Quat::Identity());
-  taken_->stale = true;
+  want();
 }
 
 std::string PieceMode::plan_text() const {
@@ -193,7 +264,7 @@ std::string PieceMode::plan_text() const {
 PiecesState PieceMode::state() const {
   PiecesState state;
   state.looking = list_ == nullptr;
-  state.putting = putting_;
+  state.putting = putting_ || (!taken_ && mover_.busy());
   if (list_)
     for (const edit::PieceStore::Found& piece : *list_)
       state.rows.push_back({1e9 * piece.volume,
@@ -201,6 +272,7 @@ PiecesState PieceMode::state() const {
                             degrees_of(piece.now.q)});
   if (!taken_) return state;
   state.taken = taken_->row;
+  state.felt = taken_->lifts;
   const Vec3 turn = math::rotation_vector(taken_->turn) / kDegree;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     state.mm[axis] = 1e3 * taken_->by[static_cast<int>(axis)];

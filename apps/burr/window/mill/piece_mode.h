@@ -1,8 +1,9 @@
 // apps/burr/window/mill/piece_mode.h - free pieces of bone on the page for milling: the window
 // says that one has come free, frames it, and lets it be moved as a ghost and put down.
 //
-// The piece under way is a picture only: the bone stays as it was until the piece is put down, and is
-// then changed by one recorded command. Thread: main; the work is done beside it (sim/piece_mover.h).
+// A piece that is taken is lifted out of the bone (tick/held_piece.h): the bone stops it, and a hand that
+// holds it feels that. Where it cannot be lifted (too thin, no room) it is a picture only, and the bone stays
+// as it was until the piece is put down. Either way one recorded undo takes the whole move back. Thread: main; the work is done beside it (sim/piece_mover.h).
 // Frame: world. Units: SI.
 #pragma once
 
@@ -30,13 +31,17 @@ class PieceMode {
   PieceMode(sim::Session& session, const scenario::Lesson* lesson);
 
   // Once a picture. What the user should read; empty: nothing new. open: the panel is shown.
-  [[nodiscard]] std::string look(bool open);
+  // row: the newest one.
+  [[nodiscard]] std::string look(bool open, const tick::TickRow& row = {});
   // Draws the frames of the free pieces, and the ghost of the one under way. shown: the panel is open.
   void show(render::Scene& scene, bool shown);
 
   [[nodiscard]] bool taken() const { return taken_.has_value(); }
   void take(std::size_t row);
-  void leave() { taken_.reset(); }
+  void leave();
+  // Before the session stops: a lifted piece goes back, or is put down if it was asked to. Waits for it,
+  // mostly some hundredths of a second; 10 s at most.
+  void end();
   void put_down();
   // In the picture's axes, by keys and mouse.
   void shift(const math::Vec3& by);
@@ -51,7 +56,9 @@ class PieceMode {
     int which = 0;  // 0: the first hand, 1: the second
   };
   void carry(const Carrier& by);
-  [[nodiscard]] bool carried() const { return taken_ && taken_->grip; }
+  [[nodiscard]] bool carried() const {
+    return taken_ && (taken_->grip || held_.state == tick::PieceRow::kHeld);
+  }
   // Of the panel: typed numbers, along and about the patient's axes.
   void set(const std::array<double, 3>& mm, const std::array<double, 3>& degrees);
 
@@ -74,7 +81,14 @@ class PieceMode {
     };
     std::optional<Grip> grip;
     bool may_grab = false;  // no hand grabbed since it was taken
+    bool asked = false;     // for another place
+    bool seen_out = false;  // of the bone
+    bool lifts = false;     // it is on its way out of the bone, or out
   };
+  // It is out of the bone.
+  [[nodiscard]] bool out() const { return held_.state != tick::PieceRow::kNone; }
+  void want();
+  void follow();
   [[nodiscard]] math::Pose pose_of(const Taken& taken) const;
   [[nodiscard]] std::string plan_text() const;
   void frame(render::Scene& scene, const edit::PieceStore::Found& piece, double line) const;
@@ -85,6 +99,7 @@ class PieceMode {
   std::shared_ptr<const std::vector<edit::PieceStore::Found>> list_;
   std::vector<std::array<math::Vec3, 2>> boxes_;  // of the pieces of the list, where they came free
   bool asked_ = false, putting_ = false;
+  tick::PieceRow held_;  // of the newest row
   std::uint64_t listed_writes_ = 0;
   std::optional<Taken> taken_;
   double line_ = 0;        // radius of the frames' rods; 0: none drawn

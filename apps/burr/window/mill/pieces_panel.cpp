@@ -83,7 +83,7 @@ PiecesPressed draw_pieces(Ui& ui, const PiecesState& state) {
       ImGui::TextUnformatted(word(Word::piece_hand));
     }
     ImGui::SetCursorPosX(14 * u);
-    ImGui::TextUnformatted(word(Word::piece_not_felt));
+    ImGui::TextUnformatted(word(state.felt ? Word::piece_felt : Word::piece_not_felt));
     ImGui::PopStyleColor();
     ImGui::PopFont();
     ImGui::PopTextWrapPos();

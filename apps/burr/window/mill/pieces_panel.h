@@ -25,6 +25,7 @@ struct PiecesState {
   std::optional<std::size_t> taken;             // row of the piece in the hand
   std::array<double, 3> mm = {}, degrees = {};  // further, from where it lies
   bool carries = false;                         // a hand of a device may carry it
+  bool felt = false;                            // the bone stops it
   std::string plan;  // "4.8 of 5.0 mm, 0.7 degrees off"; "": the case plans nothing
 };
 

@@ -138,6 +138,7 @@ void Mill::end(workshop::LiveSurface& live) {
   headset_.take_off();
   pointer_.mouse_leads();
   pages_.reset();
+  pieces_->end();
   pieces_->show(scene_, false);
   pieces_.reset();
   session_.stop();
