@@ -43,6 +43,9 @@ done
 [ -e "$store" ] && complain "a store that nobody asked for"
 
 # ---- learners and sessions
+refuses 2 'there is no store at' $burr learner list
+refuses 2 'there is no store at' $burr learner enter kestrel-27 "$place/1.mcap"
+[ -e "$store" ] && complain "a list made a store"
 says kestrel-27 $burr learner add --id kestrel-27 --level PGY2 --name "Ada Lovelace" --mail ada@example.org --json
 $burr learner add >"$place/said" || complain "no pseudonym: $(cat "$place/said")"
 other=$(head -1 "$place/said")
@@ -50,6 +53,7 @@ other=$(head -1 "$place/said")
 refuses 2 'there is such a learner' $burr learner add --id kestrel-27
 refuses 2 '' $burr learner add --id "Ada Lovelace"
 refuses 2 'use a day such as' $burr learner add --retain-until soon
+refuses 2 'use a day such as' $burr learner add --retain-until 2027-02-31
 for file in "$store" "${store%.sqlite}-names.sqlite"; do
   [ "$(stat -c %a "$file")" = 600 ] || complain "others may read $file: $(stat -c %a "$file")"
 done
@@ -108,6 +112,12 @@ grep -qF 'kestrel-27,' "$place/tables/learner.csv" || complain "the tables hold 
 grep -rqE 'Lovelace|ada@|file://' "$place/tables" && complain "the tables hold a name or a place"
 says 'learner exported' $burr learner audit
 
+# another file has the name of a recording now: no report of it
+cp "$place/1.mcap" "$place/kept.mcap"
+cp "$place/2.mcap" "$place/1.mcap"
+says 'another file has its name now' $burr learner export kestrel-27 --out "$place/again.zip"
+mv "$place/kept.mcap" "$place/1.mcap"
+
 # ---- the time to keep
 says kestrel-28 $burr learner add --id kestrel-28 --retain-until 2020-01-01
 says 'the time to keep is over for kestrel-28' $burr learner list
@@ -116,8 +126,12 @@ says forgotten $burr learner audit
 
 # ---- forgotten
 mv "$place/2.mcap" "$place/moved.mcap"
-rm -r "$place/k.zip" "$place/tables"
+rm -r "$place/k.zip" "$place/again.zip" "$place/tables"
+mkdir -p "$place/state/burr/sessions"
+echo torn >"$place/state/burr/sessions/x.mcap"
 says 'not reached, delete it yourself' $burr learner forget kestrel-27
+grep -qF 'x.mcap (it cannot be read' "$place/said" || complain "a torn recording is not named: $(cat "$place/said")"
+grep -qF "deleted: $place/1.mcap" "$place/said" || complain "what was deleted is not named: $(cat "$place/said")"
 [ -e "$place/1.mcap" ] && complain "its recording is still there"
 [ -e "$place/moved.mcap" ] || complain "a recording of another name is gone"
 rm "$place/moved.mcap" "$place/said" "$place/err" "$place/report.html"
@@ -131,6 +145,8 @@ python3 -c 'import sqlite3, sys; s = sqlite3.connect(sys.argv[1]); s.execute("IN
 says 'a newer burr made this store' $burr learner list
 refuses 74 'a newer burr made this store' $burr learner add
 refuses 74 'no connection' $burr learner list --store "postgresql://ada:secret@127.0.0.1:1/school"
+grep -qE 'secret|ada' "$place/err" && complain "a password in a message: $(cat "$place/err")"
+refuses 74 'the address cannot be read' $burr learner list --store "postgresql://ada:secret%@127.0.0.1:1/school"
 grep -qE 'secret|ada' "$place/err" && complain "a password in a message: $(cat "$place/err")"
 printf 'a list of names and other text that is no database at all\n%.0s' 1 2 3 4 5 6 7 8 9 10 >"$place/list.txt"
 refuses 65 'it is no store of learners' $burr learner list --store "$place/list.txt"

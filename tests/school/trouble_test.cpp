@@ -10,6 +10,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "burr/school/forget.h"
@@ -78,17 +79,109 @@ TEST(StoreTrouble, NoByteOfAForgottenLearnerIsLeft) {
     ASSERT_TRUE(enter(*store, made_session("otter-5", std::to_string(n))));
   }
   ASSERT_TRUE(keep(place, made_session("kestrel-27", "waits")));
+  // torn, damaged before, left by a burr that was killed; and what only looks like it, or is of another store
+  for (const char* name : {"torn.json", "odd.json.damaged", "x.json.part-12-1"})
+    std::ofstream(place.pending / name) << R"({"learner":"kestrel-27", "name)";
+  std::ofstream(place.pending / "near.json.damaged") << R"({"learner":"kestrel-270", )";
+  StorePlace foreign = place;
+  foreign.address = "/elsewhere/school.sqlite";
+  ASSERT_TRUE(keep(foreign, made_session("kestrel-27b", "waits")));
   const std::vector<std::string> gone = {"kestrel-27", "Ada Lovelace", "ada@example.org", "S-1815",
                                          session_id(made_session("kestrel-27", "7"))};
   for (const std::string& one : gone) EXPECT_TRUE(holds(folder.path(), one)) << one;
-  const auto done = forget(*store, "kestrel-27", {});
+  const auto done = forget(*store, "kestrel-27", {{}, {"a file (it cannot be read)"}, {}});
   ASSERT_TRUE(done) << done.error().text;
-  EXPECT_EQ(done->notices, std::vector<std::string>{});
+  EXPECT_EQ(done->notices.size(), 1U);  // the torn one
+  EXPECT_EQ(done->unreached, std::vector<std::string>{"a file (it cannot be read)"});
+  for (const char* name : {"torn.json.damaged", "odd.json.damaged", "x.json.part-12-1"})
+    EXPECT_FALSE(std::filesystem::exists(place.pending / name)) << name;
+  std::vector<std::string> notices;
+  EXPECT_EQ(waiting(foreign, notices).size(), 1U);
+  EXPECT_TRUE(holds(place.pending, "kestrel-270"));
+  std::filesystem::remove_all(place.pending);
   for (const std::string& one : gone) EXPECT_FALSE(holds(folder.path(), one)) << one;
   store.reset();
   for (const std::string& one : gone) EXPECT_FALSE(holds(folder.path(), one)) << one;
   EXPECT_TRUE(holds(folder.path(), "otter-5"));
   EXPECT_TRUE(holds(folder.path(), "Grace Hopper"));
+}
+
+// Both files are written one after the other: the store may go and the names stay.
+TEST(StoreTrouble, ANameDoesNotOutliveItsLearner) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  auto store = opened(place);
+  add_learner(*store, "kestrel-27", {"Ada Lovelace", "", ""});
+  Database& in = store->database();
+  ASSERT_TRUE(in.rows("PRAGMA main.wal_checkpoint(TRUNCATE)"));
+  // the names' log is long, the store's short: a size between lets only the store be written
+  for (int n = 0; n < 100; ++n)
+    ASSERT_TRUE(in.run("UPDATE names.person SET mail = $1", {std::to_string(n)}));
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 300'000;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto torn = forget(*store, "kestrel-27", {});
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_FALSE(torn);
+  const auto done = forget(*store, "kestrel-27", {});
+  ASSERT_TRUE(done) << done.error().text;
+  EXPECT_FALSE(holds(folder.path(), "Lovelace"));
+  EXPECT_FALSE(holds(folder.path(), "kestrel-27"));
+  EXPECT_FALSE(forget(*store, "kestrel-27", {}));
+}
+
+TEST(StoreTrouble, ANameWithoutALearnerIsForgottenAndGoesToNobody) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  auto store = opened(place);
+  const auto orphan = [&] {  // as a store left it whose names could not be written
+    return store->database().run(
+        "INSERT INTO names.person (learner_id, name) VALUES ('kestrel-27', 'Ada Lovelace')");
+  };
+  ASSERT_TRUE(orphan());
+  const auto done = forget(*store, "kestrel-27", {});
+  ASSERT_TRUE(done) << done.error().text;
+  EXPECT_FALSE(holds(folder.path(), "Lovelace"));
+  ASSERT_TRUE(orphan());
+  add_learner(*store, "kestrel-27");
+  EXPECT_TRUE(learners(*store, true)->front().person.empty());
+  // the file of names is gone
+  ASSERT_TRUE(store->database().run("DROP TABLE names.person"));
+  store = opened(place);
+  add_learner(*store, "otter-5", {"Grace Hopper", "", ""});
+}
+
+TEST(StoreTrouble, TwoWaysToAFileAreOneStore) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path() / "a");
+  const auto one = place_of(folder / "school.sqlite", {});
+  const auto other = place_of(folder / "a/../school.sqlite", {});
+  ASSERT_TRUE(one && other);
+  EXPECT_EQ(one->address, other->address);
+  StorePlace old = *one;  // as an older burr wrote it
+  old.address = folder / "a/../school.sqlite";
+  ASSERT_TRUE(keep(old, made_session("kestrel-27", "a")));
+  old.address = folder / "b.sqlite";
+  ASSERT_TRUE(keep(old, made_session("kestrel-27", "a")));
+  std::vector<std::string> notices;
+  std::size_t others = 0;
+  EXPECT_EQ(waiting(*one, notices, &others).size(), 1U);
+  EXPECT_EQ(others, 1U);
+}
+
+TEST(StoreTrouble, ARecordingOnADiskThatIsAwayGoesOnWaiting) {
+  const Folder folder;
+  const StorePlace place = test::place_in(folder);
+  auto store = opened(place);
+  add_learner(*store, "kestrel-27");
+  ASSERT_TRUE(keep(place, WaitingRecording{folder / "disk/s.mcap", "kestrel-27", ""}));
+  const TakenIn in = take_in(*store, {});
+  EXPECT_EQ(in.left, 1U);
+  EXPECT_EQ(in.notices.size(), 1U);
+  EXPECT_EQ(waits(place), 1U);
 }
 
 TEST(StoreTrouble, SaysWhereBytesMayBeLeftWhileSomebodyReads) {
@@ -313,6 +406,58 @@ TEST_F(ServerTrouble, NoPasswordIsInAMessage) {
   EXPECT_EQ(store.error().trouble, Trouble::io);
   for (const char* secret : {"se@cr", "cr%40et", "other"})
     EXPECT_EQ(store.error().text.find(secret), std::string::npos) << store.error().text;
+  // what libpq cannot read, or reads otherwise than meant
+  for (const auto& [address, where] :
+       {std::pair{"postgresql://ada:50%off@h/school", "postgresql://h/school"},
+        std::pair{"postgresql://ada:50?off@127.0.0.1:1/school", "postgresql://127.0.0.1:1/school"},
+        std::pair{"postgresql://ada:50/off@127.0.0.1:1/school", "postgresql://127.0.0.1:1/school"},
+        std::pair{"postgresql://ada:50@off@127.0.0.1:1/school", "postgresql://127.0.0.1:1/school"},
+        std::pair{"postgresql://ada:50/?off=1@127.0.0.1:1/s", "postgresql://127.0.0.1:1/s"},
+        std::pair{"postgresql://ada@h/s?password=50@off&bad", "postgresql://"}}) {
+    place.address = address;
+    EXPECT_EQ(shown(address), where);
+    const auto none = Store::open(place);
+    ASSERT_FALSE(none);
+    for (const char* secret : {"50", "off", "ada"})
+      EXPECT_EQ(none.error().text.find(secret), std::string::npos) << none.error().text;
+  }
+}
+
+TEST_F(ServerTrouble, ALostServerIsWaitedForOnce) {
+  auto store = opened(place_);
+  for (const char* what : {"a", "b", "c"})
+    ASSERT_TRUE(keep(place_, made_session("kestrel-27", what)));
+  StorePlace other = place_;  // they share the folder
+  other.address += "&application_name=x&port=5999";
+  ASSERT_TRUE(keep(other, made_session("kestrel-27", "a")));
+  server_.stop("fast");
+  const TakenIn in = take_in(*store, {});
+  EXPECT_EQ(in.left, 3U);
+  EXPECT_EQ(in.others, 1U);
+  EXPECT_EQ(in.notices.size(), 1U);
+  ASSERT_TRUE(server_.start());
+  comes_in_once(place_, 3, 3);
+}
+
+// The planner's figures hold the most frequent values of a column.
+TEST_F(ServerTrouble, TheServerKeepsNoFiguresOfAForgottenLearner) {
+  auto store = opened(place_);
+  add_learner(*store, "otter-5", {"Grace Hopper", "g@example.org", "7"});
+  for (int n = 0; n < 20; ++n)
+    for (const char* who : {"kestrel-27", "otter-5"})
+      ASSERT_TRUE(enter(*store, made_session(who, std::to_string(n))));
+  ASSERT_TRUE(add_to_cohort(*store, "autumn", {"kestrel-27", "otter-5"}));
+  for (const Sql one : {Sql("VACUUM ANALYZE names.person"), Sql("ANALYZE")})
+    ASSERT_TRUE(store->database().run(one));
+  const auto held = [&] {
+    return whole((*store->database().rows(
+        "SELECT count(*) FROM pg_stats WHERE schemaname IN ('public', 'names') AND "
+        "concat(most_common_vals::text, histogram_bounds::text) ~ "
+        "'otter-5|Hopper|example|tester'"))[0][0]);
+  };
+  EXPECT_EQ(held(), 0);
+  ASSERT_TRUE(forget(*store, "otter-5", {}));
+  EXPECT_EQ(held(), 0);
 }
 
 TEST_F(ServerTrouble, AStationWithoutRightsToNamesEntersSessions) {

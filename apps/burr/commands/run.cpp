@@ -271,7 +271,10 @@ Result<Closed> mill_into_folder(Desk& desk, Ready& ready, const Options& options
   if (done) stays = ask_own_marks(desk, ready, *told.diary, window);
   const Status recorded = recording.finish(session);
   if (!left) return left.error();
-  session_ended(desk, file, options.work.identity, work, recorded.ok());
+  // one that ended early, on a full disk, counts with what it holds
+  std::error_code nobody_asks;
+  session_ended(desk, file, options.work.identity, work,
+                std::filesystem::exists(file, nobody_asks));
   const Status written = write_session(options, ready, before, recorded);
   if (!written) return written.error();
   if (!stays) return stays.error();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@
 #include "burr/school/pending.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
+#include "burr/school/uuid.h"
 #include "commands/command.h"
 #include "commands/counted.h"
 #include "commands/json_line.h"
@@ -68,7 +70,11 @@ std::string day_of(std::int64_t ms) {
 Result<std::int64_t> end_of_day(const std::string& text) {
   std::tm day = {};
   const char* rest = strptime(text.c_str(), "%Y-%m-%d", &day);
-  if (rest == nullptr || *rest != '\0' || text.size() != 10)
+  namespace chrono = std::chrono;
+  const chrono::year_month_day date(chrono::year(day.tm_year + 1900),
+                                    chrono::month(static_cast<unsigned>(day.tm_mon + 1)),
+                                    chrono::day(static_cast<unsigned>(day.tm_mday)));
+  if (rest == nullptr || *rest != '\0' || text.size() != 10 || !date.ok())
     return error(Trouble::usage, fmt::format("--retain-until {}: use a day such as 2027-12-31",
                                              base::printable(text)));
   day.tm_hour = 23;
@@ -83,14 +89,34 @@ Result<school::SessionRecord> score_waiting(const school::WaitingRecording& wait
   return session_of(waiting.file, waiting.learner, waiting.rubric, {}, progress());
 }
 
+void say_others(const school::TakenIn& in) {
+  if (in.others > 0)
+    fmt::print(stderr, "{} here for other stores\n",
+               in.others == 1 ? "1 session waits" : fmt::format("{} sessions wait", in.others));
+}
+
 Result<school::StorePlace> place(const Options& options) {
   return school::place_of(options.store, users_places());
 }
 
+// A file with a slip in its name is no new store.
+Status check_there(const school::StorePlace& where) {
+  std::error_code nobody_asks;
+  if (where.address.find("://") != std::string::npos || fs::exists(where.address, nobody_asks))
+    return fine();
+  return error(Trouble::usage,
+               fmt::format("there is no store at {}; make one with `burr learner add`",
+                           base::printable(where.address, 300)));
+}
+
+enum class Make { no, yes };
+
 // Opens the store, takes in the sessions that waited and are scored already, and says what it has to say.
-Result<std::unique_ptr<school::Store>> open_store(const Options& options) {
+Result<std::unique_ptr<school::Store>> open_store(const Options& options, Make make = Make::no) {
   const auto where = place(options);
   if (!where) return where.error();
+  if (make == Make::no)
+    if (const Status there = check_there(*where); !there) return there.error();
   auto store = school::Store::open(*where);
   if (!store) return store.error();
   for (const std::string& line : (*store)->notices()) fmt::print(stderr, "{}\n", line);
@@ -99,6 +125,11 @@ Result<std::unique_ptr<school::Store>> open_store(const Options& options) {
   for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
   if (in.taken > 0)
     fmt::print(stderr, "{} that waited came into the store\n", counted(in.taken, "session"));
+  if (in.unscored > 0)
+    fmt::print(
+        stderr, "{} to be scored; run `burr learner take-in`\n",
+        in.unscored == 1 ? "1 recording waits" : fmt::format("{} recordings wait", in.unscored));
+  say_others(in);
   return store;
 }
 
@@ -114,7 +145,7 @@ Status run_add(Options options) {
     if (!until) return until.error();
     options.learner.retain_until_ms = *until;
   }
-  auto store = open_store(options);
+  auto store = open_store(options, Make::yes);
   if (!store) return store.error();
   if (options.learner.id.empty()) {
     const auto id = school::new_pseudonym(**store);
@@ -228,6 +259,7 @@ Status run_list(const Options& options) {
 Status run_enter(const Options& options) {
   const auto where = place(options);
   if (!where) return where.error();
+  if (const Status there = check_there(*where); !there) return there;
   const auto record =
       session_of(options.recording, options.id, options.rubric, options.volume, progress());
   if (!record) return record.error();
@@ -248,22 +280,33 @@ Status run_enter(const Options& options) {
 Status run_take_in(const Options& options) {
   const auto where = place(options);
   if (!where) return where.error();
+  if (const Status there = check_there(*where); !there) return there;
   std::vector<std::string> notices;
   const std::vector<school::Waiting> all = school::waiting(*where, notices);
-  // what is scored once need not be scored again, wherever the server is
+  // what is scored once need not be scored again, wherever the server is; nor what cannot be scored
+  std::map<std::string, Error> failed;
   for (const school::Waiting& one : all) {
     if (!one.recording) continue;
     std::error_code nobody_asks;
     if (!fs::exists(one.recording->file, nobody_asks)) continue;
     const auto record = score_waiting(*one.recording);
-    if (!record) continue;  // take_in() says why
+    if (!record) {
+      failed.emplace(one.recording->file, record.error());  // take_in() says why
+      continue;
+    }
     if (const Status kept = school::keep(*where, *record); !kept) return kept;
     fs::remove(one.file, nobody_asks);
   }
   auto store = school::Store::open(*where);
   if (!store) return store.error();
-  const school::TakenIn in = school::take_in(**store, score_waiting);
+  const school::TakenIn in = school::take_in(
+      **store, [&](const school::WaitingRecording& one) -> Result<school::SessionRecord> {
+        if (const auto found = failed.find(one.file); found != failed.end()) return found->second;
+        return score_waiting(one);
+      });
+  for (const std::string& line : notices) fmt::print(stderr, "{}\n", line);
   for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
+  say_others(in);
   fmt::print("{} came into the store, {} still waiting\n", counted(in.taken, "session"), in.left);
   print_json(options, {{"taken", in.taken}, {"left", in.left}});
   return fine();
@@ -271,17 +314,22 @@ Status run_take_in(const Options& options) {
 
 // ---- forget
 
-// Recordings of the window that are this learner's, also those that never came into the store.
-std::vector<std::string> recordings_of(const std::string& learner) {
-  std::vector<std::string> all;
+// Recordings of the window that are this learner's, also those that never came into the store; and those of which
+// nobody knows whose they are.
+school::Recordings recordings_of(const std::string& learner) {
+  school::Recordings all;
   std::error_code nobody_asks;
-  const fs::path folder = users_places().state / "sessions";
-  for (const auto& entry : fs::directory_iterator(folder, nobody_asks)) {
-    if (entry.path().extension() != ".mcap") continue;
-    const auto player = record::Player::open(entry.path().string());
-    if (!player) continue;
+  all.folder = users_places().state / "sessions";
+  for (const auto& entry : fs::directory_iterator(all.folder, nobody_asks)) {
+    const std::string file = entry.path().string(), ending = entry.path().extension().string();
+    if (ending != ".mcap" && ending != ".part") continue;
+    const auto player = record::Player::open(file);
+    if (!player || ending == ".part") {
+      all.unread.push_back(file + " (it cannot be read; it may be of this learner)");
+      continue;
+    }
     const auto& identity = (*player)->info().identity;
-    if (identity && identity->learner == learner) all.push_back(entry.path().string());
+    if (identity && identity->learner == learner) all.mine.push_back(file);
   }
   return all;
 }
@@ -294,6 +342,8 @@ Status forget_one(school::Store& store, const std::string& id, Json& all) {
              counted(done->deleted.size(), "file"));
   if (done->voided > 0)
     fmt::print("{} sent elsewhere will be taken back\n", counted(done->voided, "statement"));
+  for (const std::string& one : done->deleted)
+    fmt::print("deleted: {}\n", base::printable(one, 400));
   for (const std::string& one : done->unreached)
     fmt::print("not reached, delete it yourself: {}\n", base::printable(one, 400));
   for (const std::string& one : done->notices) fmt::print(stderr, "{}\n", one);
@@ -357,6 +407,11 @@ void add_reports(const Options& options, const std::vector<school::SessionRow>& 
     std::error_code nobody_asks;
     if (path.empty() || !fs::exists(path, nobody_asks)) {
       missing.push_back(one.recording_uri);
+      continue;
+    }
+    // a report of what has its name now may be of somebody else
+    if (const auto hash = school::sha1_of_file(path); !hash || *hash != one.recording_hash) {
+      missing.push_back(one.recording_uri + " (another file has its name now)");
       continue;
     }
     const auto report = marked(path, "", {}, progress());
@@ -424,7 +479,7 @@ Status run_cohort_list(const Options& options) {
 }
 
 Status run_cohort(const Options& options, bool adds) {
-  auto store = open_store(options);
+  auto store = open_store(options, adds ? Make::yes : Make::no);
   if (!store) return store.error();
   const Status done = adds ? school::add_to_cohort(**store, options.title, options.ids)
                            : school::remove_from_cohort(**store, options.title, options.ids);

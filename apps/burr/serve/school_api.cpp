@@ -84,6 +84,8 @@ Json brief(const school::SessionRow& session) {
 // ---- views
 
 Response overview_of(Store& store) {
+  // the page is open for days
+  if (const Status looked = store.look_again(); !looked) return trouble(looked.error());
   const auto learners = school::learners(store, false);
   if (!learners) return trouble(learners.error());
   const auto cohorts = school::cohorts(store);
@@ -292,12 +294,11 @@ Response audit_of(Store& store) {
 }
 
 Response csv(Store& store) {
-  const auto files = school::all_tables(store);
-  if (!files) return trouble(files.error());
+  const auto file = school::session_table(store);
+  if (!file) return trouble(file.error());
   Response out;
   out.type = "text/csv; charset=utf-8";
-  for (const school::TextFile& file : *files)
-    if (file.name == "session.csv") out.body = file.text;
+  out.body = file->text;
   return out;
 }
 

@@ -50,7 +50,8 @@ class Database {
   // One statement. Returns how many rows it changed.
   [[nodiscard]] virtual Result<std::int64_t> run(Sql sql, const Values& values = {}) = 0;
   [[nodiscard]] virtual Result<std::vector<Row>> rows(Sql sql, const Values& values = {}) = 0;
-  // From begin() to commit() all or nothing. A connection that was lost is made anew by begin(), and never between.
+  // From begin() to commit() all or nothing; with SQLite in each of the two files by itself: what fails at the end may be
+  // in the store and not in the names. A connection that was lost is made anew by begin(), and never between.
   [[nodiscard]] virtual Status begin() = 0;
   [[nodiscard]] virtual Status commit() = 0;
   virtual void rollback() = 0;
@@ -93,6 +94,8 @@ struct Waits {
                                                             const std::string& names, Waits waits);
 // address: postgresql://..., as libpq reads it; a password is better in ~/.pgpass. shown: the address without user and
 // password, for errors.
+// True: libpq reads it, and takes no part of a password for a host or a database (`/`, `@` in it must be %2F, %40).
+[[nodiscard]] bool is_readable_address(const std::string& address);
 [[nodiscard]] Result<std::unique_ptr<Database>> open_postgres(const std::string& address,
                                                               const std::string& shown,
                                                               Waits waits);

@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "burr/base/printable.h"
+#include "burr/school/forget.h"
+#include "burr/school/pending.h"
 
 namespace burr::school {
 namespace {
@@ -38,8 +40,10 @@ constexpr Table kAll[] = {
     {"session",
      "id,learner_id,case_hash,started_ms,seconds,mode,guided,finished,attempt,device,device_max_n,"
      "voxel_um,engine,recording_hash",
-     "SELECT id, learner_id, case_hash, started_ms, seconds, mode, guided, finished, attempt, "
-     "device, device_max_n, voxel_um, engine, recording_hash FROM session ORDER BY started_ms, id"},
+     "SELECT id, learner_id, case_hash, started_ms, seconds, mode, guided, finished, ROW_NUMBER() "
+     "OVER (PARTITION BY learner_id, case_def.name ORDER BY started_ms, id), device, device_max_n, "
+     "voxel_um, engine, recording_hash FROM session LEFT JOIN case_def "
+     "ON case_def.hash = session.case_hash ORDER BY started_ms, id"},
     {"score", "id,session_id,rubric_hash,engine,part,total,gates_broken,assessable_weight,made_ms",
      "SELECT id, session_id, rubric_hash, engine, part, total, gates_broken, assessable_weight, "
      "made_ms FROM score ORDER BY session_id, part, id"},
@@ -75,9 +79,10 @@ constexpr TableOf kOf[] = {
     {"session",
      "id,learner_id,case_hash,started_ms,seconds,mode,guided,finished,attempt,device,device_max_n,"
      "voxel_um,engine,recording_hash,recording_uri",
-     "SELECT id, learner_id, case_hash, started_ms, seconds, mode, guided, finished, attempt, "
-     "device, device_max_n, voxel_um, engine, recording_hash, recording_uri FROM session "
-     "WHERE learner_id = $1 ORDER BY started_ms"},
+     "SELECT id, learner_id, case_hash, started_ms, seconds, mode, guided, finished, ROW_NUMBER() "
+     "OVER (PARTITION BY case_def.name ORDER BY started_ms, id), device, device_max_n, voxel_um, "
+     "engine, recording_hash, recording_uri FROM session LEFT JOIN case_def "
+     "ON case_def.hash = session.case_hash WHERE learner_id = $1 ORDER BY started_ms, id"},
     {"score", "id,session_id,rubric_hash,engine,part,total,gates_broken,assessable_weight,made_ms",
      "SELECT id, session_id, rubric_hash, engine, part, total, gates_broken, assessable_weight, "
      "made_ms FROM score WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1) "
@@ -137,6 +142,27 @@ Json json_of(std::string_view columns, const std::vector<Row>& rows) {
   return all;
 }
 
+// Statements for elsewhere, and sessions that wait on this computer.
+Status add_what_waits(Store& store, const std::string& learner, std::vector<TextFile>& files,
+                      Json& json) {
+  constexpr const char* kColumns = "id,statement_json,state,tries,next_ms";
+  auto rows = store.database().rows(
+      "SELECT id, statement_json, state, tries, next_ms FROM outbox ORDER BY id");
+  if (!rows) return rows.error();
+  std::erase_if(*rows, [&](const Row& row) { return !is_about(text(row[1]), learner); });
+  json["outbox"] = json_of(kColumns, *rows);
+  if (!rows->empty()) files.push_back({"outbox.csv", csv_of(kColumns, *rows)});
+  json["waiting"] = Json::array();
+  std::vector<std::string> nobody_asks;
+  for (const Waiting& one : waiting(store.place(), nobody_asks)) {
+    if (one.session && one.session->learner == learner)
+      json["waiting"].push_back(Json::parse(to_json(*one.session)));
+    if (one.recording && one.recording->learner == learner)
+      json["waiting"].push_back({{"recording", one.recording->file}});
+  }
+  return fine();
+}
+
 }  // namespace
 
 std::string csv_cell(const std::string& text) {
@@ -161,6 +187,18 @@ Result<std::vector<TextFile>> all_tables(Store& store) {
   return files;
 }
 
+Result<TextFile> session_table(Store& store) {
+  for (const Table& table : kAll) {
+    if (std::string_view(table.name) != "session") continue;
+    const auto rows = store.database().rows(table.all);
+    if (!rows) return rows.error();
+    if (!store.reads_only())
+      if (const Status noted = store.note("sessions exported", ""); !noted) return noted.error();
+    return TextFile{"session.csv", csv_of(table.columns, *rows)};
+  }
+  return error("there is no table of sessions");
+}
+
 Result<std::vector<TextFile>> tables_of(Store& store, const std::string& learner) {
   const auto known = has(store, learner);
   if (!known) return known.error();
@@ -176,6 +214,8 @@ Result<std::vector<TextFile>> tables_of(Store& store, const std::string& learner
     if (!rows->empty())
       files.push_back({std::string(table.name) + ".csv", csv_of(table.columns, *rows)});
   }
+  const Status more = add_what_waits(store, learner, files, json);
+  if (!more) return more.error();
   files.push_back(
       {"learner.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"});
   if (!store.reads_only())

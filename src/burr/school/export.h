@@ -19,6 +19,9 @@ struct TextFile {
 // One CSV a table. No names, no places on somebody's disk, no audit.
 [[nodiscard]] Result<std::vector<TextFile>> all_tables(Store& store);
 
+// session.csv of those alone.
+[[nodiscard]] Result<TextFile> session_table(Store& store);
+
 // One CSV a table that has rows, and learner.json with the same. Error: no such learner.
 [[nodiscard]] Result<std::vector<TextFile>> tables_of(Store& store, const std::string& learner);
 

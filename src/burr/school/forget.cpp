@@ -27,10 +27,11 @@ std::string computer() {
   return host.data();
 }
 
-void delete_recording(const std::string& path, Forgotten& done) {
+void delete_recording(const std::string& path, const fs::path& folder, Forgotten& done) {
   std::error_code trouble;
   // its report; and where the window keeps sessions, its account
-  const bool kept = fs::path(path).parent_path().filename() == "sessions";
+  const bool kept =
+      !folder.empty() && fs::equivalent(fs::path(path).parent_path(), folder, trouble);
   for (const char* ending : {".html", ".json", ".toml"}) {
     const fs::path beside = fs::path(path).replace_extension(ending);
     if ((kept || beside.extension() == ".html") && fs::remove(beside, trouble))
@@ -42,7 +43,7 @@ void delete_recording(const std::string& path, Forgotten& done) {
     done.unreached.push_back(fmt::format("{} ({})", path, trouble.message()));
 }
 
-void delete_recording(const SessionRow& session, Forgotten& done) {
+void delete_recording(const SessionRow& session, const fs::path& folder, Forgotten& done) {
   if (session.recording_uri.empty()) return;
   const std::string path = path_of(session.recording_uri);
   std::error_code nobody_asks;
@@ -53,11 +54,11 @@ void delete_recording(const SessionRow& session, Forgotten& done) {
   } else if (const auto hash = sha1_of_file(path); !hash || *hash != session.recording_hash) {
     done.unreached.push_back(session.recording_uri + " (another file has its name now)");
   } else {
-    delete_recording(path, done);
+    delete_recording(path, folder, done);
   }
 }
 
-bool is_about(const Json& statement, const std::string& learner) {
+bool names_learner(const Json& statement, const std::string& learner) {
   const auto actor = statement.find("actor");
   if (actor == statement.end() || !actor->is_object()) return false;
   const auto account = actor->find("account");
@@ -79,11 +80,9 @@ Status void_statements(Store& store, const std::string& learner, Forgotten& done
   const auto all = in.rows("SELECT id, statement_json, state FROM outbox");
   if (!all) return all.error();
   for (const Row& row : *all) {
+    if (!is_about(text(row[1]), learner)) continue;
     const Json statement = Json::parse(text(row[1]), nullptr, false);
-    // what cannot be read is deleted where it holds the id at all
     const bool read = statement.is_object();
-    if (read ? !is_about(statement, learner) : text(row[1]).find(learner) == std::string::npos)
-      continue;
     const std::string id = text(row[0]);
     if (const auto gone = in.run("DELETE FROM outbox WHERE id = $1", {id}); !gone)
       return gone.error();
@@ -101,7 +100,6 @@ Status void_statements(Store& store, const std::string& learner, Forgotten& done
 
 // What hangs on a learner, the leaves first.
 constexpr Sql kDeletes[] = {
-    "DELETE FROM names.person WHERE learner_id = $1",
     "DELETE FROM item WHERE score_id IN (SELECT score.id FROM score JOIN session "
     "ON session.id = score.session_id WHERE session.learner_id = $1)",
     "DELETE FROM score WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
@@ -109,8 +107,10 @@ constexpr Sql kDeletes[] = {
     "DELETE FROM self_mark WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM rater_mark WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM decision WHERE learner_id = $1",
-    "UPDATE audit SET subject = '' WHERE subject IN (SELECT id FROM session WHERE learner_id = $1)",
-    "UPDATE audit SET subject = '' WHERE subject = $1",
+    // whoever did it may be the learner
+    "UPDATE audit SET subject = '', who = '' "
+    "WHERE subject IN (SELECT id FROM session WHERE learner_id = $1)",
+    "UPDATE audit SET subject = '', who = '' WHERE subject = $1",
     "UPDATE audit SET who = 'forgotten' WHERE who = $1",
     "UPDATE rater_mark SET rater_id = 'forgotten' WHERE rater_id = $1",
     "UPDATE decision SET confirmed_by = 'forgotten' WHERE confirmed_by = $1",
@@ -122,15 +122,26 @@ constexpr Sql kDeletes[] = {
 constexpr Sql kScrubFile[] = {"VACUUM main", "VACUUM names"};
 // tables that held something of a learner are written anew
 constexpr Sql kScrubServer[] = {
-    "VACUUM FULL names.person", "VACUUM FULL item",          "VACUUM FULL score",
-    "VACUUM FULL metric",       "VACUUM FULL self_mark",     "VACUUM FULL rater_mark",
-    "VACUUM FULL decision",     "VACUUM FULL outbox",        "VACUUM FULL audit",
-    "VACUUM FULL session",      "VACUUM FULL cohort_member", "VACUUM FULL learner",
+    "VACUUM (FULL, ANALYZE) names.person",  "VACUUM (FULL, ANALYZE) item",
+    "VACUUM (FULL, ANALYZE) score",         "VACUUM (FULL, ANALYZE) metric",
+    "VACUUM (FULL, ANALYZE) self_mark",     "VACUUM (FULL, ANALYZE) rater_mark",
+    "VACUUM (FULL, ANALYZE) decision",      "VACUUM (FULL, ANALYZE) outbox",
+    "VACUUM (FULL, ANALYZE) audit",         "VACUUM (FULL, ANALYZE) session",
+    "VACUUM (FULL, ANALYZE) cohort_member", "VACUUM (FULL, ANALYZE) learner",
 };
 
-Status delete_rows(Store& store, const std::string& learner, Forgotten& done) {
+// In a change of its own: with SQLite the names are another file, and nothing is whole over both.
+Result<bool> delete_name(Store& store, const std::string& learner) {
   auto change = Transaction::begin(store.database());
   if (!change) return change.error();
+  const auto gone =
+      store.database().run("DELETE FROM names.person WHERE learner_id = $1", {learner});
+  if (!gone) return gone.error();
+  if (const Status done = change->commit(); !done) return done.error();
+  return *gone > 0;
+}
+
+Status delete_rows(Store& store, const std::string& learner, Forgotten& done) {
   if (const Status voided = void_statements(store, learner, done); !voided) return voided;
   for (const Sql one : kDeletes)
     if (const auto gone = store.database().run(one, {learner}); !gone) return gone.error();
@@ -139,11 +150,34 @@ Status delete_rows(Store& store, const std::string& learner, Forgotten& done) {
       "DELETE FROM cohort WHERE NOT EXISTS "
       "(SELECT 1 FROM cohort_member WHERE cohort_id = cohort.id)");
   if (!empty) return empty.error();
-  if (const Status noted = store.note("learner forgotten", ""); !noted) return noted;
-  return change->commit();
+  return store.note("learner forgotten", "");
+}
+
+void delete_waiting(Store& store, const std::string& learner, const Recordings& more,
+                    Forgotten& done) {
+  std::error_code ignored;
+  for (const Waiting& one : waiting(store.place(), done.notices)) {
+    if ((one.session ? one.session->learner : one.recording->learner) != learner) continue;
+    if (one.recording) delete_recording(one.recording->file, more.folder, done);
+    fs::remove(one.file, ignored);
+    ++done.waiting;
+  }
+  const Leftovers left = leftovers(store.place(), learner);
+  for (const fs::path& file : left.holding) {
+    if (fs::remove(file, ignored)) done.deleted.push_back(file.string());
+    if (fs::exists(file, ignored)) done.unreached.push_back(file.string());
+  }
+  for (const fs::path& file : left.unread)
+    done.unreached.push_back(file.string() + " (it cannot be read)");
 }
 
 }  // namespace
+
+bool is_about(const std::string& statement, const std::string& learner) {
+  const Json read = Json::parse(statement, nullptr, false);
+  return read.is_object() ? names_learner(read, learner)
+                          : statement.find(learner) != std::string::npos;
+}
 
 std::string uri_of(const std::string& path) {
   std::error_code nobody_asks;
@@ -174,28 +208,35 @@ Status scrub(Store& store) {
   return fine();
 }
 
-Result<Forgotten> forget(Store& store, const std::string& learner,
-                         const std::vector<std::string>& more) {
+Result<Forgotten> forget(Store& store, const std::string& learner, const Recordings& more) {
   if (const Status may = store.may_write(); !may) return may.error();
   const auto known = has(store, learner);
   if (!known) return known.error();
-  if (!*known)
+  const auto named = delete_name(store, learner);
+  if (!named) return named.error();
+  if (!*known && !*named)
     return error(Trouble::usage, fmt::format("{}: there is no such learner; `burr learner list`",
                                              base::printable(learner)));
-  const auto sessions = sessions_of(store, learner);
-  if (!sessions) return sessions.error();
   Forgotten done;
-  done.sessions = sessions->size();
-  for (const SessionRow& session : *sessions) delete_recording(session, done);
-  for (const std::string& path : more) delete_recording(path, done);
-  std::error_code ignored;
-  for (const Waiting& one : waiting(store.place(), done.notices)) {
-    if ((one.session ? one.session->learner : one.recording->learner) != learner) continue;
-    if (one.recording) delete_recording(one.recording->file, done);
-    fs::remove(one.file, ignored);
-    ++done.waiting;
+  {
+    auto change = Transaction::begin(store.database());
+    if (!change) return change.error();
+    // no session of this learner comes in from here on; SQLite lets nobody else write anyway
+    if (store.database().kind() == Database::Kind::postgres)
+      if (const auto alone =
+              store.database().rows("SELECT id FROM learner WHERE id = $1 FOR UPDATE", {learner});
+          !alone)
+        return alone.error();
+    const auto sessions = sessions_of(store, learner);
+    if (!sessions) return sessions.error();
+    done.sessions = sessions->size();
+    if (const Status gone = delete_rows(store, learner, done); !gone) return gone.error();
+    for (const SessionRow& session : *sessions) delete_recording(session, more.folder, done);
+    for (const std::string& path : more.mine) delete_recording(path, more.folder, done);
+    delete_waiting(store, learner, more, done);
+    if (const Status kept = change->commit(); !kept) return kept.error();
   }
-  if (const Status gone = delete_rows(store, learner, done); !gone) return gone.error();
+  done.unreached.insert(done.unreached.end(), more.unread.begin(), more.unread.end());
   if (const Status clean = scrub(store); !clean)
     done.notices.push_back(fmt::format(
         "the rows are deleted, but their bytes may still be in the files of the store ({}); close "

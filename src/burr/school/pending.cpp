@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -31,9 +33,21 @@ Status write(const StorePlace& place, const std::string& name, Json content) {
   return file->put_in_place();
 }
 
-// two recordings of one name, in two folders, both wait
-std::string name_of(const WaitingRecording& recording) {
-  return uuid_of(kBurrSpace, "file " + recording.file) + ".json";
+// Two recordings of one name, in two folders, both wait; and one session for each of two servers, which share a folder.
+std::string name_of(const StorePlace& place, const std::string& what) {
+  return uuid_of(kBurrSpace, shown(place.address) + " " + what) + ".json";
+}
+std::string name_of(const StorePlace& place, const WaitingRecording& recording) {
+  return name_of(place, "file " + recording.file);
+}
+
+// Older ones may say the same file by another way.
+bool is_of(const StorePlace& place, const std::string& store) {
+  const std::string here = shown(place.address);
+  if (store == here) return true;
+  std::error_code trouble;
+  return store.find("://") == std::string::npos && fs::path(store).is_absolute() &&
+         fs::weakly_canonical(store, trouble).string() == here;
 }
 
 std::string word(const Json& json, const char* name) {
@@ -48,7 +62,7 @@ Result<std::optional<Waiting>> read(const StorePlace& place, const fs::path& fil
   if (!text) return text.error();
   const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object()) return error(fmt::format("{}: is torn", name));
-  if (word(json, "store") != shown(place.address)) return std::optional<Waiting>();
+  if (!is_of(place, word(json, "store"))) return std::optional<Waiting>();
   Waiting one;
   one.file = file;
   if (const auto found = json.find("session"); found != json.end()) {
@@ -65,11 +79,42 @@ Result<std::optional<Waiting>> read(const StorePlace& place, const fs::path& fil
   return std::optional<Waiting>(std::move(one));
 }
 
+std::optional<std::string> bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) return std::nullopt;
+  return bytes;
+}
+
+// "kestrel-2" is not in "kestrel-27".
+bool holds_word(const std::string& text, const std::string& word) {
+  const auto is_of_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+  };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_of_word(text[at - 1])) && (end == text.size() || !is_of_word(text[end])))
+      return true;
+  }
+  return false;
+}
+
+const std::string& whose(const Waiting& one) {
+  return one.session ? one.session->learner : one.recording->learner;
+}
+
 // Refused for good: nothing but another store would take it.
 bool is_refused(const Error& error) { return error.trouble == Trouble::usage; }
 
-// True: the session is where it belongs, or was refused; its file can go.
-bool settle(Store& store, const SessionRecord& record, TakenIn& in) {
+// False: gone from a folder that is there. A disk that is away, or that cannot be asked, has its recordings still.
+bool may_be_there(const fs::path& file) {
+  std::error_code trouble;
+  if (fs::exists(file, trouble) || trouble) return true;
+  return !fs::exists(file.parent_path(), trouble) || trouble;
+}
+
+// True: the session is where it belongs, or was refused; its file can go. away: the store cannot be written now.
+bool settle(Store& store, const SessionRecord& record, TakenIn& in, bool& away) {
   const auto entered = enter(store, record);
   if (entered) {
     ++in.taken;
@@ -82,24 +127,33 @@ bool settle(Store& store, const SessionRecord& record, TakenIn& in) {
     return true;
   }
   ++in.left;
+  away = entered.error().trouble == Trouble::io;
   in.notices.push_back(entered.error().text);
   return false;
 }
 
-void take(Store& store, const Waiting& one, const ScoreIt& score, TakenIn& in) {
+void take(Store& store, const Waiting& one, const ScoreIt& score, TakenIn& in, bool& away) {
   std::error_code ignored;
   if (one.session) {
-    if (settle(store, *one.session, in)) fs::remove(one.file, ignored);
+    if (settle(store, *one.session, in, away)) fs::remove(one.file, ignored);
     return;
   }
-  if (!fs::exists(one.recording->file, ignored)) {
+  if (!may_be_there(one.recording->file)) {
     in.notices.push_back(fmt::format("{}: this recording waited for the store and is gone",
                                      base::printable(one.recording->file, 300)));
     fs::remove(one.file, ignored);
     return;
   }
+  if (!fs::exists(one.recording->file, ignored)) {
+    ++in.left;
+    in.notices.push_back(
+        fmt::format("{}: the folder of this recording is not there now; it goes on waiting",
+                    base::printable(one.recording->file, 300)));
+    return;
+  }
   if (!score) {
     ++in.left;
+    ++in.unscored;
     return;
   }
   const auto record = score(*one.recording);
@@ -112,28 +166,30 @@ void take(Store& store, const Waiting& one, const ScoreIt& score, TakenIn& in) {
       ++in.left;
     return;
   }
-  if (settle(store, *record, in)) fs::remove(one.file, ignored);
+  if (settle(store, *record, in, away)) fs::remove(one.file, ignored);
 }
 
 }  // namespace
 
 Status keep(const StorePlace& place, const SessionRecord& record) {
-  return write(place, session_id(record) + ".json", {{"session", Json::parse(to_json(record))}});
+  return write(place, name_of(place, "session " + session_id(record)),
+               {{"session", Json::parse(to_json(record))}});
 }
 
 Status keep(const StorePlace& place, const WaitingRecording& recording) {
   return write(
-      place, name_of(recording),
+      place, name_of(place, recording),
       {{"recording",
         {{"file", recording.file}, {"learner", recording.learner}, {"rubric", recording.rubric}}}});
 }
 
 void drop(const StorePlace& place, const WaitingRecording& recording) {
   std::error_code ignored;
-  fs::remove(place.pending / name_of(recording), ignored);
+  fs::remove(place.pending / name_of(place, recording), ignored);
 }
 
-std::vector<Waiting> waiting(const StorePlace& place, std::vector<std::string>& notices) {
+std::vector<Waiting> waiting(const StorePlace& place, std::vector<std::string>& notices,
+                             std::size_t* others) {
   std::vector<fs::path> files;
   std::error_code nobody_asks;
   for (const auto& entry : fs::directory_iterator(place.pending, nobody_asks))
@@ -143,11 +199,33 @@ std::vector<Waiting> waiting(const StorePlace& place, std::vector<std::string>& 
   for (const fs::path& file : files) {
     auto one = read(place, file);
     if (one && *one) all.push_back(std::move(**one));
+    if (one && !*one && others != nullptr) ++*others;
     if (one || !fs::exists(file, nobody_asks)) continue;  // another program took it in
     fs::rename(file, file.string() + ".damaged", nobody_asks);
     notices.push_back(one.error().text + "; it is kept beside as .damaged");
   }
   return all;
+}
+
+Leftovers leftovers(const StorePlace& place, const std::string& learner) {
+  Leftovers found;
+  std::error_code trouble;
+  for (const auto& entry : fs::directory_iterator(place.pending, trouble)) {
+    std::error_code nobody_asks;
+    if (!entry.is_regular_file(nobody_asks)) continue;
+    // of another store, whose learner of this name may be another person; or of another learner, in a folder of that name
+    if (const auto whole = read(place, entry.path());
+        whole && (!*whole || whose(**whole) != learner))
+      continue;
+    const auto text = bytes_of(entry.path());
+    if (!text)
+      found.unread.push_back(entry.path());
+    else if (holds_word(*text, learner))
+      found.holding.push_back(entry.path());
+  }
+  if (trouble && trouble != std::errc::no_such_file_or_directory)
+    found.unread.push_back(place.pending);
+  return found;
 }
 
 Result<Kept> enter_or_keep(const StorePlace& place, const SessionRecord& record) {
@@ -167,7 +245,13 @@ Result<Kept> enter_or_keep(const StorePlace& place, const SessionRecord& record)
 
 TakenIn take_in(Store& store, const ScoreIt& score) {
   TakenIn in;
-  for (const Waiting& one : waiting(store.place(), in.notices)) take(store, one, score, in);
+  bool away = false;
+  for (const Waiting& one : waiting(store.place(), in.notices, &in.others)) {
+    if (away)
+      ++in.left;
+    else
+      take(store, one, score, in, away);
+  }
   return in;
 }
 

@@ -37,9 +37,17 @@ struct Waiting {
 [[nodiscard]] Status keep(const StorePlace& place, const WaitingRecording& recording);
 // The recording does not wait any more: it is gone on purpose.
 void drop(const StorePlace& place, const WaitingRecording& recording);
-// Those for this store, by name. A file that cannot be read gets the ending .damaged, and a sentence.
+// Those for this store, by name. A file that cannot be read gets the ending .damaged, and a sentence. others: how many
+// wait here for other stores.
 [[nodiscard]] std::vector<Waiting> waiting(const StorePlace& place,
-                                           std::vector<std::string>& notices);
+                                           std::vector<std::string>& notices,
+                                           std::size_t* others = nullptr);
+// All other files there, such as damaged ones and those of a burr that was killed while it wrote: which hold this
+// learner's pseudonym as a word, and which cannot be read. Whole ones of other stores are left out.
+struct Leftovers {
+  std::vector<std::filesystem::path> holding, unread;
+};
+[[nodiscard]] Leftovers leftovers(const StorePlace& place, const std::string& learner);
 
 struct Kept {
   bool stored = false;  // false: it waits
@@ -50,11 +58,14 @@ struct Kept {
 
 struct TakenIn {
   std::size_t taken = 0, left = 0;
+  std::size_t unscored = 0;          // of those left: recordings that nobody here could score
+  std::size_t others = 0;            // wait here for other stores
   std::vector<std::string> notices;  // one for each that was refused or still waits
 };
 using ScoreIt = std::function<Result<SessionRecord>(const WaitingRecording&)>;
 // score: makes a session of a recording; without it recordings go on waiting. Deleted is what the store refuses by
-// Trouble::usage (its learner was forgotten, or it is another learner's), and what waits for a recording that is gone.
+// Trouble::usage (its learner was forgotten, or it is another learner's), and what waits for a recording that is gone
+// from a folder that is there. Ends at the first Trouble::io of the store: what is left would only wait for it again.
 [[nodiscard]] TakenIn take_in(Store& store, const ScoreIt& score);
 
 }  // namespace burr::school

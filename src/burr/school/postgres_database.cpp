@@ -3,6 +3,7 @@
 #include <libpq-fe.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -61,8 +62,15 @@ class Postgres final : public Database {
 
   Status connect() {
     PQfinish(connection_);
+    connection_ = nullptr;
     prepared_.clear();
     inside_ = false;
+    // libpq quotes what it cannot read, and that may be a password
+    if (!is_readable_address(address_))
+      return error(Trouble::io,
+                   fmt::format("{}: the address cannot be read; write %, /, ? and @ in a password "
+                               "as %25, %2F, %3F, %40",
+                               shown_));
     const std::string wait = fmt::format("{}", waits_.connect_s);
     // a net that is gone shows after some seconds, not after hours; what the address says goes before
     const char* names[] = {"connect_timeout",  "keepalives_idle",  "keepalives_interval",
@@ -234,6 +242,21 @@ class Postgres final : public Database {
 };
 
 }  // namespace
+
+bool is_readable_address(const std::string& address) {
+  char* said = nullptr;
+  PQconninfoOption* options = PQconninfoParse(address.c_str(), &said);
+  PQfreemem(said);
+  if (options == nullptr) return false;
+  PQconninfoFree(options);
+  // libpq ends user and password at the first @ before the first /; a second one is in a password
+  const std::size_t begin = address.find("://") + 3;
+  const std::size_t path = std::min(address.find('/', begin), address.size());
+  const std::size_t query = std::min(address.find('?', path), address.size());
+  return std::count(address.begin() + static_cast<std::ptrdiff_t>(begin),
+                    address.begin() + static_cast<std::ptrdiff_t>(path), '@') <= 1 &&
+         address.substr(path, query - path).find('@') == std::string::npos;
+}
 
 Result<std::unique_ptr<Database>> open_postgres(const std::string& address,
                                                 const std::string& shown, Waits waits) {

@@ -59,8 +59,52 @@ constexpr Sql kSecond[] = {
     "CREATE INDEX outbox_next ON outbox(state, next_ms)",
 };
 
-constexpr std::span<const Sql> kSteps[] = {kFirst, kSecond};
-static_assert(std::size(kSteps) == kSchema);
+// A server keeps the most frequent values of a column apart, for its planner: names and pseudonyms would outlive their
+// rows there. No such figures are made, and a type that is set again drops those that are there.
+constexpr Sql kThirdOfServer[] = {
+    "ALTER TABLE names.person ALTER learner_id SET STATISTICS 0, ALTER name SET STATISTICS 0, "
+    "ALTER mail SET STATISTICS 0, ALTER external_id SET STATISTICS 0",
+    "ALTER TABLE names.person ALTER learner_id TYPE TEXT, ALTER name TYPE TEXT, "
+    "ALTER mail TYPE TEXT, ALTER external_id TYPE TEXT",
+    "ALTER TABLE learner ALTER id SET STATISTICS 0",
+    "ALTER TABLE learner ALTER id TYPE TEXT",
+    "ALTER TABLE session ALTER id SET STATISTICS 0, ALTER learner_id SET STATISTICS 0, "
+    "ALTER recording_uri SET STATISTICS 0, ALTER recording_hash SET STATISTICS 0",
+    "ALTER TABLE session ALTER id TYPE TEXT, ALTER learner_id TYPE TEXT, "
+    "ALTER recording_uri TYPE TEXT, ALTER recording_hash TYPE TEXT",
+    "ALTER TABLE cohort_member ALTER learner_id SET STATISTICS 0",
+    "ALTER TABLE cohort_member ALTER learner_id TYPE TEXT",
+    "ALTER TABLE decision ALTER learner_id SET STATISTICS 0, "
+    "ALTER confirmed_by SET STATISTICS 0, ALTER session_set_json SET STATISTICS 0",
+    "ALTER TABLE decision ALTER learner_id TYPE TEXT, ALTER confirmed_by TYPE TEXT, "
+    "ALTER session_set_json TYPE TEXT",
+    "ALTER TABLE rater_mark ALTER rater_id SET STATISTICS 0, ALTER session_id SET STATISTICS 0",
+    "ALTER TABLE rater_mark ALTER rater_id TYPE TEXT, ALTER session_id TYPE TEXT",
+    "ALTER TABLE outbox ALTER statement_json SET STATISTICS 0",
+    "ALTER TABLE outbox ALTER statement_json TYPE TEXT",
+    "ALTER TABLE audit ALTER who SET STATISTICS 0, ALTER subject SET STATISTICS 0",
+    "ALTER TABLE audit ALTER who TYPE TEXT, ALTER subject TYPE TEXT",
+    "ALTER TABLE score ALTER session_id SET STATISTICS 0",
+    "ALTER TABLE score ALTER session_id TYPE TEXT",
+    "ALTER TABLE metric ALTER session_id SET STATISTICS 0",
+    "ALTER TABLE metric ALTER session_id TYPE TEXT",
+    "ALTER TABLE self_mark ALTER session_id SET STATISTICS 0",
+    "ALTER TABLE self_mark ALTER session_id TYPE TEXT",
+};
+
+constexpr Sql kNames[] = {
+    "CREATE TABLE IF NOT EXISTS names.person (learner_id TEXT PRIMARY KEY, name TEXT, mail TEXT, "
+    "external_id TEXT)",
+};
+
+// From version v to the next one.
+std::span<const Sql> step(std::int64_t v, Database::Kind kind) {
+  if (v == 0) return kFirst;
+  if (v == 1) return kSecond;
+  if (kind == Database::Kind::postgres) return kThirdOfServer;
+  return {};
+}
+static_assert(kSchema == 3);
 
 Result<std::int64_t> version_of(Database& database) {
   const auto there =
@@ -82,9 +126,14 @@ Status run_all(Database& database, std::span<const Sql> statements) {
   return fine();
 }
 
-}  // namespace
+// Names lie in a file of their own, which may be lost, or not yet written when the store was made.
+Status make_names(Database& database) {
+  const auto there = database.rows("SELECT 1 FROM names.sqlite_master WHERE name = 'person'");
+  if (!there) return there.error();
+  return there->empty() ? run_all(database, kNames) : fine();
+}
 
-Result<std::int64_t> bring_to(Database& database, std::int64_t now_ms, std::int64_t to) {
+Result<std::int64_t> bring_tables_to(Database& database, std::int64_t now_ms, std::int64_t to) {
   auto version = version_of(database);
   if (!version || *version >= to) return version;
   auto change = Transaction::begin(database);
@@ -108,7 +157,7 @@ Result<std::int64_t> bring_to(Database& database, std::int64_t now_ms, std::int6
         return made.error();
   }
   for (std::int64_t v = *version; v < to; ++v) {
-    if (const Status done = run_all(database, kSteps[v]); !done) return done.error();
+    if (const Status done = run_all(database, step(v, database.kind())); !done) return done.error();
     if (const auto noted = database.run(
             "INSERT INTO schema_version (v, applied_ms) VALUES ($1, $2)", {v + 1, now_ms});
         !noted)
@@ -116,6 +165,15 @@ Result<std::int64_t> bring_to(Database& database, std::int64_t now_ms, std::int6
   }
   if (const Status done = change->commit(); !done) return done.error();
   return to;
+}
+
+}  // namespace
+
+Result<std::int64_t> bring_to(Database& database, std::int64_t now_ms, std::int64_t to) {
+  auto version = bring_tables_to(database, now_ms, to);
+  if (version && *version <= kSchema && database.kind() == Database::Kind::sqlite)
+    if (const Status made = make_names(database); !made) return made.error();
+  return version;
 }
 
 }  // namespace burr::school

@@ -62,7 +62,7 @@ struct SessionRecord {
   std::string mode;                    // "free", "learn", "practise", "exam"
   bool guided = false;                 // with help: never part of a curve
   bool finished = false;               // the work was declared done
-  std::int64_t attempt = 0;            // 0: the store counts
+  std::int64_t attempt = 0;            // as the recording says; 0: it did not count
   std::string device;                  // its name
   std::optional<double> device_max_n;  // its largest force
   double voxel_um = 0;                 // largest edge

@@ -37,18 +37,7 @@ Status define(Database& to, const SessionRecord& record) {
              {rubric.hash, rubric.name, rubric.version, rubric.calibrated, rubric.text}));
 }
 
-Result<std::int64_t> attempt_of(Database& to, const SessionRecord& record) {
-  if (record.attempt > 0) return record.attempt;
-  const auto before = to.rows(
-      "SELECT count(*) FROM session WHERE learner_id = $1 AND case_hash = $2 AND started_ms < $3",
-      {record.learner, record.work_case.hash, record.started_ms});
-  if (!before) return before.error();
-  return 1 + whole((*before)[0][0]);
-}
-
 Result<bool> insert_session(Database& to, const SessionRecord& record, const std::string& id) {
-  const auto attempt = attempt_of(to, record);
-  if (!attempt) return attempt.error();
   const auto made = to.run(
       "INSERT INTO session (id, learner_id, case_hash, started_ms, seconds, mode, guided, "
       "finished, "
@@ -56,7 +45,7 @@ Result<bool> insert_session(Database& to, const SessionRecord& record, const std
       "($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15) ON CONFLICT DO NOTHING",
       {id, record.learner, record.work_case.hash.empty() ? Value() : Value(record.work_case.hash),
        record.started_ms, record.seconds, record.mode, std::int64_t{record.guided},
-       std::int64_t{record.finished}, *attempt, record.device, or_null(record.device_max_n),
+       std::int64_t{record.finished}, record.attempt, record.device, or_null(record.device_max_n),
        record.voxel_um, record.engine, record.recording_hash, record.recording_uri});
   if (!made) return made.error();
   return *made > 0;
@@ -134,7 +123,8 @@ Result<Entered> enter(Store& store, const SessionRecord& record) {
   }
   if (const Status done = insert_rest(to, record, id); !done) return done.error();
   if (entered.session || entered.scores > 0)
-    if (const Status noted = store.note("session entered", id); !noted) return noted.error();
+    if (const Status noted = store.note("session entered", id, Store::By::computer); !noted)
+      return noted.error();
   if (const Status done = change->commit(); !done) return done.error();
   return entered;
 }
@@ -180,10 +170,13 @@ Result<std::vector<LearnerRow>> learners(Store& store, bool with_names) {
 }
 
 Result<std::vector<SessionRow>> sessions_of(Store& store, const std::string& learner) {
+  // counted here: sessions come in late and in any order
   const auto found = store.database().rows(
       "SELECT session.id, session.learner_id, case_def.name, session.mode, session.device, "
       "session.engine, session.recording_uri, session.recording_hash, session.started_ms, "
-      "session.attempt, session.seconds, session.voxel_um, session.guided, session.finished "
+      "ROW_NUMBER() OVER (PARTITION BY session.learner_id, case_def.name "
+      "ORDER BY session.started_ms, session.id), session.seconds, session.voxel_um, "
+      "session.guided, session.finished "
       "FROM session LEFT JOIN case_def ON case_def.hash = session.case_hash "
       "WHERE session.learner_id = $1 OR $2 = 1 ORDER BY session.started_ms, session.id",
       {learner, std::int64_t{learner.empty()}});

@@ -38,6 +38,7 @@ struct LearnerRow {
 };
 [[nodiscard]] Result<std::vector<LearnerRow>> learners(Store& store, bool with_names);
 
+// attempt: of this learner at the case of this name, by time, from 1.
 struct SessionRow {
   std::string id, learner, case_name, mode, device, engine, recording_uri, recording_hash;
   std::int64_t started_ms = 0, attempt = 0;

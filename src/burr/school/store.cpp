@@ -78,21 +78,26 @@ std::int64_t now_ms() {
 
 std::string shown(const std::string& address) {
   if (!is_server(address)) return address;
-  const std::size_t begin = address.find("://") + 3;
-  const std::size_t query = std::min(address.find('?'), address.size());
-  std::string where = address.substr(begin, query - begin);
-  // up to the last @ before the path: a password may hold one
-  const std::size_t path = std::min(where.find('/'), where.size());
-  if (const std::size_t at = where.rfind('@', path); at != std::string::npos)
-    where.erase(0, at + 1);
-  std::string out = "postgresql://" + where;
+  std::size_t begin = address.find("://") + 3;
+  // up to the first @ before the path, as libpq reads it; else up to the last of all, since a password may hold any mark
+  const bool clear = is_readable_address(address);
+  const std::size_t at = clear ? address.find('@', begin) : address.rfind('@');
+  const std::size_t path = std::min(address.find('/', begin), address.size());
+  if (at != std::string::npos && (at < path || !clear)) {
+    // a password in the query may hold that @
+    if (!clear && address.substr(0, at).find("password=") != std::string::npos)
+      return "postgresql://";
+    begin = at + 1;
+  }
+  const std::size_t query = std::min(address.find('?', begin), address.size());
+  std::string out = "postgresql://" + address.substr(begin, query - begin);
   char mark = '?';
-  for (std::size_t at = query + 1; at < address.size();) {
-    const std::size_t end = std::min(address.find('&', at), address.size());
-    const std::string one = address.substr(at, end - at);
+  for (std::size_t next = query + 1; next < address.size();) {
+    const std::size_t end = std::min(address.find('&', next), address.size());
+    const std::string one = address.substr(next, end - next);
     for (const char* known : {"host=", "port=", "hostaddr=", "dbname="})
       if (one.rfind(known, 0) == 0) out += std::exchange(mark, '&') + one;
-    at = end + 1;
+    next = end + 1;
   }
   return out;
 }
@@ -114,8 +119,11 @@ Result<StorePlace> place_of(const std::string& given, const DeskPlaces& places) 
   if (place.address.empty())
     return error(Trouble::usage, "no folder for the store of learners; name a file with --store");
   if (!is_server(place.address)) {
-    std::error_code nobody_asks;
-    place.address = fs::absolute(place.address, nobody_asks).string();
+    // one name for one store: what waits says by it where it belongs
+    std::error_code trouble;
+    const fs::path whole = fs::absolute(place.address, trouble);
+    const fs::path one = fs::weakly_canonical(whole, trouble);
+    place.address = (trouble || one.empty() ? whole.lexically_normal() : one).string();
     place.pending = fs::path(place.address).parent_path() / "pending";
   } else if (places.data.empty()) {
     return error(Trouble::usage,
@@ -150,14 +158,15 @@ Result<std::unique_ptr<Store>> Store::open(const StorePlace& place) {
         "{}: a newer burr made this store (version {}, this burr knows {}), so it is only read; "
         "update burr",
         shown(place.address), *version, kSchema);
-    store->notices_.push_back(store->newer_);
     if (const Status set = store->database_->read_only(); !set) return set.error();
   }
-  if (const Status looked = store->look_at_retention(); !looked) return looked.error();
+  if (const Status looked = store->look_again(); !looked) return looked.error();
   return store;
 }
 
-Status Store::look_at_retention() {
+Status Store::look_again() {
+  notices_.clear();
+  if (reads_only_) notices_.push_back(newer_);
   const auto late = overdue(*this, now_ms());
   if (!late) return late.error();
   if (!late->empty())
@@ -170,10 +179,12 @@ Status Store::look_at_retention() {
 
 Status Store::may_write() const { return reads_only_ ? error(Trouble::io, newer_) : fine(); }
 
-Status Store::note(std::string_view what, std::string_view subject) {
+Status Store::note(std::string_view what, std::string_view subject, By by) {
+  std::string who = place_.who;
+  if (by == By::computer) who.erase(0, who.rfind('@') + 1);  // all of it where there is no @
   const auto noted =
       database_->run("INSERT INTO audit (ms, who, what, subject) VALUES ($1, $2, $3, $4)",
-                     {now_ms(), place_.who, std::string(what), std::string(subject)});
+                     {now_ms(), who, std::string(what), std::string(subject)});
   return noted ? fine() : Status(noted.error());
 }
 
@@ -211,6 +222,12 @@ Status add(Store& store, const Learner& learner, const Person& person) {
        learner.retain_until_ms ? Value(*learner.retain_until_ms) : Value(),
        std::int64_t{learner.consent_research}});
   if (!added) return added.error();
+  // a name that a torn change left must not become this learner's; a server tears none, and may give no right to names
+  if (!person.empty() || store.database().kind() == Database::Kind::sqlite) {
+    const auto old =
+        store.database().run("DELETE FROM names.person WHERE learner_id = $1", {learner.id});
+    if (!old) return old.error();
+  }
   if (!person.empty()) {
     const auto named = store.database().run(
         "INSERT INTO names.person (learner_id, name, mail, external_id) VALUES ($1, $2, $3, $4)",

@@ -48,16 +48,19 @@ class Store {
   [[nodiscard]] Database& database() { return *database_; }
   [[nodiscard]] const StorePlace& place() const { return place_; }
   [[nodiscard]] bool reads_only() const { return reads_only_; }
-  // Sentences: the store is of a newer burr; whose retention is over.
+  // Sentences, as open() or look_again() found it: the store is of a newer burr; whose retention is over.
   [[nodiscard]] const std::vector<std::string>& notices() const { return notices_; }
   // Error, Trouble::io: a newer burr made it, so what was to be written must wait.
   [[nodiscard]] Status may_write() const;
-  // One row of the audit: who, what, when. subject: an id, or nothing.
-  [[nodiscard]] Status note(std::string_view what, std::string_view subject);
+  // Makes notices() anew: for a program that has the store open for days.
+  [[nodiscard]] Status look_again();
+  // One row of the audit: who, what, when. subject: an id, or nothing. By::computer: what happens by itself while a
+  // learner works, whose login would join a name to the pseudonym.
+  enum class By { person, computer };
+  [[nodiscard]] Status note(std::string_view what, std::string_view subject, By by = By::person);
 
  private:
   Store() = default;
-  [[nodiscard]] Status look_at_retention();
   StorePlace place_;
   std::unique_ptr<Database> database_;
   bool reads_only_ = false;

@@ -17,7 +17,7 @@ namespace burr::app {
 void session_begins(Desk& desk, const std::string& recording, const record::Identity& identity,
                     const scenario::Case* work);
 
-// recording: complete; kept: false if it was thrown away, because nothing was done. Does nothing without a learner, a case with a rubric, or a store that somebody wants
+// recording: finished, or as much as the disk took; kept: false if there is no such file, because nothing was done. Does nothing without a learner, a case with a rubric, or a store that somebody wants
 // (school::is_wanted). What went wrong is told on the start page.
 void session_ended(Desk& desk, const std::string& recording, const record::Identity& identity,
                    const scenario::Case* work, bool kept);

@@ -116,7 +116,10 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
   if (done) stays = ask_own_marks(desk, ready, *with.diary, window);
   if (autosave)
     if (const Status kept = autosave->finish(); !kept) desk.lost = kept;
-  if (enters) session_ended(desk, file, options.identity, work, !autosave->kept_file().empty());
+  // one that ended early, on a full disk, counts with what it holds
+  std::error_code nobody_asks;
+  if (enters)
+    session_ended(desk, file, options.identity, work, std::filesystem::exists(file, nobody_asks));
   if (!done) return left;
   if (!stays) return stays.error();
   if (!*stays) return Closed::window;
