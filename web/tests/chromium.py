@@ -209,7 +209,7 @@ class Page:
         while time.monotonic() < end:
             if self.run(f"!!({condition})"):
                 return
-            if self.run("window.burr?.trouble"):
+            if self.run("window.burr?.trouble") and not self.run(f"!!({condition})"):
                 raise RuntimeError("the page says: " + self.run("burr.trouble"))
             time.sleep(0.1)
         raise TimeoutError(f"not within {seconds} s: {condition}; console: {self.troubles}")
