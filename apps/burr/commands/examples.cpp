@@ -103,6 +103,7 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"check", "--seconds 60 --no-picture", "longer, without a picture"},
     {"bench tick", "--mill slot --ticks 10000", "milling a slot"},
     {"bench tool", "--tool sagittal-saw --scene slot --mill", "a saw in its slot"},
+    {"bench piece", "--kerf-mm 0.5 --ticks 5000", "a narrow kerf"},
     {"bench methods", "--size 128 --json", "all methods of touch"},
     {"bench surface", "--size 256 --runs 3", "a smaller shell"},
     {"bench carve", "--cuts 500", "fewer cuts"},
