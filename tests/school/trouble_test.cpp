@@ -126,6 +126,7 @@ TEST(StoreTrouble, ANameDoesNotOutliveItsLearner) {
   const auto torn = forget(*store, "kestrel-27", {});
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   EXPECT_FALSE(torn);
+  EXPECT_TRUE(*has(*store, "kestrel-27"));  // a name without its learner would be found by nobody
   const auto done = forget(*store, "kestrel-27", {});
   ASSERT_TRUE(done) << done.error().text;
   EXPECT_FALSE(holds(folder.path(), "Lovelace"));
