@@ -342,10 +342,9 @@ TEST_F(DeviceWindow, ASecondOneHoldsAToolThatCuts) {
   tick::TickRow second;
   const auto drawn = [&] {
     static_cast<void>(session.second_hand()->view().take(second));
-    int near = 0;
-    for (const render::Rod& rod : ready->scene.rods)
-      near += rod.radius > 0.8e-3 && (rod.a - second.contact.proxy).norm() < 9e-3 ? 1 : 0;
-    return near >= 2;  // head and shaft
+    const auto& beside = ready->scene.beside;  // its own surface, where it is
+    return beside && beside->look != nullptr &&
+           (beside->world_from_tool.p - second.contact.proxy).norm() < 9e-3;
   };
   mill_by(*ready, {{"the tool is drawn", drawn, [&] {
                       EXPECT_EQ(second.tool.number, 0);
