@@ -160,7 +160,7 @@ def main():
             # another tab has no token
             same(page.run("document.querySelector('main').children.length"), 0, "what is shown without a token")
             wanted = page.run("import('/words.mjs').then(m => m.words[document.documentElement.lang].token)")
-            same(page.run("document.getElementById('state').textContent"), wanted, "what is said without a token")
+            same(page.run("document.getElementById('state').textContent"), wanted, "the sentence that a page without its token shows")
     print("the instructor's page: all as it should be")
 
 

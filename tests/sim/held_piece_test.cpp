@@ -454,6 +454,21 @@ TEST(HeldPiece, GoesWhereItIsWantedAsFarAsTheBoneLetsIt) {
   EXPECT_NEAR(bench.moved().z(), -kKerf, 0.06 * kVoxel) << "no rotation: refused";
 }
 
+// Bricks were prepared for one place, and the hand went on: the bone must not come back at the old place.
+TEST(HeldPiece, IsNotPutDownWhereItNoLongerIs) {
+  Bench bench;
+  ASSERT_TRUE(bench.lift());
+  bench.grab();
+  edit::PieceMove move;
+  const auto prepared = bench.down(move);
+  ASSERT_TRUE(prepared.ok());
+  bench.go({0, 1, 0});
+  EXPECT_FALSE(bench.obeyed(CommandKind::move_piece, move, *prepared));
+  EXPECT_TRUE(bench.servo.piece().lifted());
+  EXPECT_TRUE(bench.put_down());
+  EXPECT_FALSE(bench.servo.piece().lifted());
+}
+
 // A place from a command or a file: the hand that holds the piece lets go, and its force does not leap with the place.
 TEST(HeldPiece, AWantedPlaceTakesItOutOfTheHand) {
   Bench bench;

@@ -42,8 +42,8 @@ class MappedHand final : public Device {
   void set_axes(const math::Quat& world_from_hand) { turns_.publish(world_from_hand); }
   // Lifts the hand from outside, in addition to the button: by a pedal or a key.
   void lift(bool lifted) BURR_RT { lifted_.store(lifted, std::memory_order_relaxed); }
-  // While it carries something by its pedal or mill button, the axes wait until both are let go, or
-  // what is carried would turn at once.
+  // true: the hand carries something while its pedal or mill button is down. New axes then apply only after both are
+  // released; otherwise what is carried would turn at once.
   void carry(bool carries) { carries_.store(carries, std::memory_order_relaxed); }
   // Sets the foot pedal, 0..1. The larger of it and the mill button's value counts.
   void press(double pedal) BURR_RT { pedal_.store(pedal, std::memory_order_relaxed); }

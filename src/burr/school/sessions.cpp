@@ -138,9 +138,10 @@ Result<std::vector<LearnerRow>> learners(Store& store, bool with_names) {
       "learner.retain_until_ms, learner.consent_research ORDER BY learner.id");
   if (!found) return found.error();
   const auto counts = store.database().rows(
-      "SELECT learner_id, max(n) FROM (SELECT learner_id, case_hash, count(*) AS n FROM session "
-      "WHERE guided = 0 AND finished = 1 GROUP BY learner_id, case_hash) AS by_case "
-      "GROUP BY learner_id");
+      "SELECT learner_id, max(n) FROM (SELECT session.learner_id, case_def.name, count(*) AS n "
+      "FROM session LEFT JOIN case_def ON case_def.hash = session.case_hash "
+      "WHERE session.guided = 0 AND session.finished = 1 "
+      "GROUP BY session.learner_id, case_def.name) AS by_case GROUP BY learner_id");
   if (!counts) return counts.error();
   std::map<std::string, std::int64_t> unguided;
   for (const Row& row : *counts) unguided[text(row[0])] = whole(row[1]);

@@ -220,10 +220,13 @@ void PieceMover::see_lifted(const tick::PieceRow& piece) {
   }
   if (lifted_ && state_ == State::lifted) {
     lifted_->seen = lifted_->seen || there;
-    // what it was told before, as where to go, has been done by then
+    // the servo has obeyed earlier commands, for example where to go, when the piece rests for some looks
     constexpr int kLooks = 3;
-    lifted_->rested = there && piece.p == lifted_->last ? lifted_->rested + 1 : 0;
+    lifted_->rested = there && piece.p == lifted_->last && piece.turn == lifted_->last_turn
+                          ? lifted_->rested + 1
+                          : 0;
     lifted_->last = piece.p;
+    lifted_->last_turn = piece.turn;
     const bool rested = lifted_->rested >= kLooks;
     // an undo may have put it back before a row showed it out
     constexpr int kUnseen = 100, kAgain = 50;

@@ -16,6 +16,7 @@
 // while a piece is taken or put down.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -108,6 +109,7 @@ class PieceMover {
     bool puts_down = false;                  // once the hand has let go and it has come to rest
     int rested = 0;                          // looks
     math::Vec3 last = math::Vec3::Zero();    // place
+    std::array<double, 4> last_turn = {};    // x, y, z, w
     bool leaves = false;                     // once it is out
     int left = 0;                            // looks since then
   };

@@ -83,7 +83,18 @@ bool Restore::may_move(const Command& command, const edit::MovedBricks& bricks) 
   if (active() || bricks.hash != move.bricks || move.writes != writer_.writes_done()) return false;
   if (command.kind == CommandKind::lift_piece)
     return !lifted_.now && bricks.body.tool.count > 0 && bricks.body.hash == move.body;
-  return move.lifted == lifted_.now && (!lifted_.now || move.piece == lifted_.piece);
+  if (move.lifted != lifted_.now) return false;
+  return !lifted_.now || (move.piece == lifted_.piece && lies_at(move));
+}
+
+// Bricks are prepared in some tenths of a second. A hand may have moved the piece since.
+bool Restore::lies_at(const edit::PieceMove& move) const BURR_RT {
+  constexpr double kSamePlace = 1e-6, kSameTurn = 1e-9;  // [m]; 1 - |cosine of half the angle|
+  const math::Pose& at = piece_.pose();
+  const math::Vec3 by(move.by[0], move.by[1], move.by[2]);
+  const double cosine = at.q.x() * move.turn[0] + at.q.y() * move.turn[1] +
+                        at.q.z() * move.turn[2] + at.q.w() * move.turn[3];
+  return (at.p - lifted_.centre - by).norm() < kSamePlace && 1 - std::abs(cosine) < kSameTurn;
 }
 
 void Restore::begin_move(const Command& command, std::uint32_t& flags) BURR_RT {
@@ -105,7 +116,9 @@ void Restore::begin_move(const Command& command, std::uint32_t& flags) BURR_RT {
   piece_.drop();
   kind_ = command.kind;
   if (kind_ == CommandKind::lift_piece)
-    lifted_ = {true, command.move.piece, bricks->bricks.size(), bricks->lost};
+    lifted_ = {
+        true, command.move.piece, bricks->bricks.size(), bricks->lost,
+        bricks->body.at.p - math::Vec3(command.move.by[0], command.move.by[1], command.move.by[2])};
   state_ = State::lifting;
   restored_ = 0;
   moving_ = bricks;

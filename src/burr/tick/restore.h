@@ -78,6 +78,7 @@ class Restore {
   void put_back(std::uint32_t& flags) BURR_RT;
   [[nodiscard]] bool may_move(const Command& command,
                               const edit::MovedBricks& bricks) const BURR_RT;
+  [[nodiscard]] bool lies_at(const edit::PieceMove& move) const BURR_RT;
   void lay(std::size_t most, std::uint32_t& flags) BURR_RT;
   [[nodiscard]] bool has_room(const edit::MovedBricks& bricks) const BURR_RT;
   void settle() BURR_RT;
@@ -107,8 +108,9 @@ class Restore {
   struct Lifted {
     bool now = false;
     std::uint32_t piece = 0;
-    std::size_t bricks = 0;  // that the lift changed
-    std::int64_t lost = 0;   // by the bone  [units]
+    std::size_t bricks = 0;                  // that the lift changed
+    std::int64_t lost = 0;                   // by the bone  [units]
+    math::Vec3 centre = math::Vec3::Zero();  // where it came free
   };
   Lifted lifted_;
   bool back_ = false;  // what is put back is a lifted piece

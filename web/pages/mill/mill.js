@@ -1,6 +1,7 @@
 // The page "mill": a bone to cut, with mouse or finger. The program runs twice: here it draws the
 // picture and says where the hand is; in worker.js it ticks.
 import {compile, start, trouble} from '../common/burr.js';
+import {fit, wanted_size} from '../common/canvas.js';
 import {show} from '../common/skin.js';
 import * as words from '../common/words.js';
 
@@ -65,7 +66,7 @@ async function main() {
   begin();
   dress();
   view = await start(compiled);
-  const [wide, high] = wanted_size();
+  const [wide, high] = wanted_size(canvas);
   if (view.view_open(wide, high) === 0) throw trouble('no_webgl');
   burr.gpu = view.text(view.view_gpu());
   view.view_bone(burr.voxel);
@@ -147,7 +148,7 @@ function draw(now) {
     const fresh = waiting.length > 0;
     take_waiting();
     if (fresh && !burr.ready) view.view_anew();
-    fit();
+    if (fit(canvas)) dirty = true;
     if (burr.ready) point();
     const took = drew ? now - before : 0;  // of the picture before, if the one after it follows at once
     before = now;
@@ -174,18 +175,6 @@ function point() {
     aim = view.bytes(at, view.view_aim_size()).slice();
   }
   worker.postMessage({kind: 'next', aim});
-}
-
-function wanted_size() {
-  const scale = Math.min(window.devicePixelRatio || 1, 2);
-  return [Math.max(1, Math.round(canvas.clientWidth * scale)), Math.max(1, Math.round(canvas.clientHeight * scale))];
-}
-function fit() {
-  const [wide, high] = wanted_size();
-  if (canvas.width === wide && canvas.height === high) return;
-  canvas.width = wide;
-  canvas.height = high;
-  dirty = true;
 }
 
 function write() {

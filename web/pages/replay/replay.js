@@ -1,6 +1,7 @@
 // The page "replay": a recording from a file of the user's, at any moment. The file goes to the worker of this page and
 // nowhere else.
 import {compile, start, trouble} from '../common/burr.js';
+import {fit, wanted_size} from '../common/canvas.js';
 import {show} from '../common/skin.js';
 import * as words from '../common/words.js';
 
@@ -31,7 +32,7 @@ async function main() {
   const [module] = await Promise.all([compile(), words.load()]);
   compiled = module;
   view = await start(compiled);
-  if (view.view_open(...wanted_size()) === 0) throw trouble('no_webgl');
+  if (view.view_open(...wanted_size(canvas)) === 0) throw trouble('no_webgl');
   view.view_bone(0.5);
   for (const one of document.querySelectorAll('[data-word]')) one.textContent = word(one.dataset.word);
   $('home').textContent = word('first_view');
@@ -138,7 +139,7 @@ function draw(now) {
       seen = true;
       view.view_whole();
     }
-    fit();
+    if (fit(canvas)) dirty = true;
     const took = drew ? now - before : 0;  // of the picture before, if this one follows at once; a rest is no work
     before = now;
     drew = dirty || fresh || view.view_refined() === 0;
@@ -168,18 +169,6 @@ function write() {
 function stop() {
   playing = 0;
   $('play').textContent = word('play');
-}
-
-function wanted_size() {
-  const scale = Math.min(window.devicePixelRatio || 1, 2);
-  return [Math.max(1, Math.round(canvas.clientWidth * scale)), Math.max(1, Math.round(canvas.clientHeight * scale))];
-}
-function fit() {
-  const [wide, high] = wanted_size();
-  if (canvas.width === wide && canvas.height === high) return;
-  canvas.width = wide;
-  canvas.height = high;
-  dirty = true;
 }
 
 function listen() {

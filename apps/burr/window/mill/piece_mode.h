@@ -39,8 +39,8 @@ class PieceMode {
   [[nodiscard]] bool taken() const { return taken_.has_value(); }
   void take(std::size_t row);
   void leave();
-  // Before the session stops: a lifted piece goes back, or is put down if it was asked to. Waits for it,
-  // mostly some hundredths of a second; 10 s at most.
+  // Call it before the session stops. A lifted piece goes back to where it lay; where the user had already
+  // asked to put it down, it is put down. Waits until that is done: mostly some hundredths of a second, at most 10 s.
   void end();
   void put_down();
   // In the picture's axes, by keys and mouse.

@@ -17,8 +17,9 @@ namespace burr::app {
 void session_begins(Desk& desk, const std::string& recording, const record::Identity& identity,
                     const scenario::Case* work);
 
-// recording: finished, or as much as the disk took; kept: false if there is no such file, because nothing was done. Does nothing without a learner, a case with a rubric, or a store that somebody wants
-// (school::is_wanted). What went wrong is told on the start page.
+// recording: finished, or as much as the disk took. kept: false if there is no such file, because nothing was done. Without
+// a learner, a case with a rubric, or a store that is wanted (school::is_wanted) it does nothing. The start page shows what
+// went wrong.
 void session_ended(Desk& desk, const std::string& recording, const record::Identity& identity,
                    const scenario::Case* work, bool kept);
 

@@ -480,7 +480,7 @@ void TwoTools::rub(Rubbing& one, Rubbing& other, Guesses& guess, Twist& twist, S
     Twist to;
     static_cast<void>(seek(a, b, goal_a, goal_b, kHoldMoves, guess, to, touch_a, touch_b));
     const bool solved = to.solved;
-    if (!solved) {  // back, with the rows of that place: forces are told from them
+    if (!solved) {  // back, and the rows of that place again: the forces come from the rows
       a.c_ = at_a.p;
       a.r_ = at_a.q;
       b.c_ = at_b.p;

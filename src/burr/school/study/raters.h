@@ -23,7 +23,7 @@
 
 namespace burr::school::study {
 
-constexpr int kFewestProducts = 10;  // below it nothing is said of raters
+constexpr int kFewestProducts = 10;  // with fewer products burr gives no figures of raters
 
 using Pair = std::pair<bool, bool>;  // the marks of two raters for one item of one product
 
