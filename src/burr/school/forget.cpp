@@ -100,16 +100,15 @@ Status void_statements(Store& store, const std::string& learner, Forgotten& done
 
 // What hangs on a learner, the leaves first.
 constexpr Sql kDeletes[] = {
-    "DELETE FROM item WHERE score_id IN (SELECT score.id FROM score JOIN session "
-    "ON session.id = score.session_id WHERE session.learner_id = $1)",
+    R"(DELETE FROM item WHERE score_id IN (SELECT score.id FROM score JOIN session ON session.id = score.session_id
+       WHERE session.learner_id = $1))",
     "DELETE FROM score WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM metric WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM self_mark WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM rater_mark WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM decision WHERE learner_id = $1",
     // whoever did it may be the learner
-    "UPDATE audit SET subject = '', who = '' "
-    "WHERE subject IN (SELECT id FROM session WHERE learner_id = $1)",
+    R"(UPDATE audit SET subject = '', who = '' WHERE subject IN (SELECT id FROM session WHERE learner_id = $1))",
     "UPDATE audit SET subject = '', who = '' WHERE subject = $1",
     "UPDATE audit SET who = 'forgotten' WHERE who = $1",
     "UPDATE rater_mark SET rater_id = 'forgotten' WHERE rater_id = $1",

@@ -7,47 +7,42 @@ namespace {
 
 // ids TEXT, times BIGINT [ms since 1970, UTC], flags SMALLINT, JSON as TEXT: what both databases know.
 constexpr Sql kFirst[] = {
-    "CREATE TABLE learner (id TEXT PRIMARY KEY, created_ms BIGINT NOT NULL, level TEXT NOT NULL, "
-    "handed TEXT NOT NULL, retain_until_ms BIGINT, consent_research SMALLINT NOT NULL)",
-    "CREATE TABLE IF NOT EXISTS names.person (learner_id TEXT PRIMARY KEY, name TEXT, mail TEXT, "
-    "external_id TEXT)",
+    R"(CREATE TABLE learner (id TEXT PRIMARY KEY, created_ms BIGINT NOT NULL, level TEXT NOT NULL,
+       handed TEXT NOT NULL, retain_until_ms BIGINT, consent_research SMALLINT NOT NULL))",
+    R"(CREATE TABLE IF NOT EXISTS names.person (learner_id TEXT PRIMARY KEY, name TEXT, mail TEXT,
+       external_id TEXT))",
     "CREATE TABLE cohort (id TEXT PRIMARY KEY, title TEXT NOT NULL UNIQUE)",
-    "CREATE TABLE cohort_member (cohort_id TEXT NOT NULL REFERENCES cohort(id), "
-    "learner_id TEXT NOT NULL REFERENCES learner(id), PRIMARY KEY (cohort_id, learner_id))",
+    R"(CREATE TABLE cohort_member (cohort_id TEXT NOT NULL REFERENCES cohort(id),
+       learner_id TEXT NOT NULL REFERENCES learner(id), PRIMARY KEY (cohort_id, learner_id)))",
     "CREATE TABLE case_def (hash TEXT PRIMARY KEY, name TEXT NOT NULL, version BIGINT, text TEXT)",
-    "CREATE TABLE rubric (hash TEXT PRIMARY KEY, name TEXT NOT NULL, version BIGINT, "
-    "calibrated BIGINT, text TEXT)",
-    "CREATE TABLE session (id TEXT PRIMARY KEY, learner_id TEXT REFERENCES learner(id), "
-    "case_hash TEXT REFERENCES case_def(hash), started_ms BIGINT, seconds DOUBLE PRECISION, "
-    "mode TEXT, guided SMALLINT, finished SMALLINT, attempt BIGINT, device TEXT, "
-    "device_max_n DOUBLE PRECISION, voxel_um DOUBLE PRECISION, engine TEXT, recording_hash TEXT, "
-    "recording_uri TEXT)",
-    "CREATE TABLE score (id TEXT PRIMARY KEY, session_id TEXT NOT NULL REFERENCES session(id), "
-    "rubric_hash TEXT NOT NULL REFERENCES rubric(hash), engine TEXT NOT NULL, part TEXT NOT NULL, "
-    "total DOUBLE PRECISION, gates_broken BIGINT, assessable_weight DOUBLE PRECISION, "
-    "made_ms BIGINT, UNIQUE (session_id, rubric_hash, engine, part))",
-    "CREATE TABLE item (score_id TEXT NOT NULL REFERENCES score(id), item_id TEXT NOT NULL, "
-    "result TEXT NOT NULL, value DOUBLE PRECISION, threshold DOUBLE PRECISION, "
-    "margin DOUBLE PRECISION, evidence_json TEXT, PRIMARY KEY (score_id, item_id))",
-    "CREATE TABLE metric (session_id TEXT NOT NULL REFERENCES session(id), name TEXT NOT NULL, "
-    "unit TEXT NOT NULL, value DOUBLE PRECISION, PRIMARY KEY (session_id, name))",
-    "CREATE TABLE self_mark (session_id TEXT NOT NULL REFERENCES session(id), "
-    "item_id TEXT NOT NULL, mark TEXT NOT NULL, PRIMARY KEY (session_id, item_id))",
-    "CREATE TABLE rater_mark (id TEXT PRIMARY KEY, "
-    "session_id TEXT NOT NULL REFERENCES session(id), rater_id TEXT NOT NULL, "
-    "item_id TEXT NOT NULL, mark TEXT NOT NULL, blinded SMALLINT NOT NULL, reason TEXT, "
-    "made_ms BIGINT)",
-    "CREATE TABLE standard (id TEXT PRIMARY KEY, rubric_hash TEXT REFERENCES rubric(hash), "
-    "method TEXT, cut DOUBLE PRECISION, n_low BIGINT, n_high BIGINT, fp DOUBLE PRECISION, "
-    "fn DOUBLE PRECISION, text TEXT)",
-    "CREATE TABLE decision (session_set_json TEXT NOT NULL, "
-    "learner_id TEXT NOT NULL REFERENCES learner(id), "
-    "standard_id TEXT NOT NULL REFERENCES standard(id), outcome TEXT NOT NULL, "
-    "confirmed_by TEXT NOT NULL, reason TEXT, made_ms BIGINT)",
-    "CREATE TABLE outbox (id TEXT PRIMARY KEY, statement_json TEXT NOT NULL, state TEXT NOT NULL, "
-    "tries BIGINT NOT NULL, next_ms BIGINT)",
-    "CREATE TABLE audit (ms BIGINT NOT NULL, who TEXT NOT NULL, what TEXT NOT NULL, "
-    "subject TEXT NOT NULL)",
+    R"(CREATE TABLE rubric (hash TEXT PRIMARY KEY, name TEXT NOT NULL, version BIGINT, calibrated BIGINT,
+       text TEXT))",
+    R"(CREATE TABLE session (id TEXT PRIMARY KEY, learner_id TEXT REFERENCES learner(id),
+       case_hash TEXT REFERENCES case_def(hash), started_ms BIGINT, seconds DOUBLE PRECISION, mode TEXT,
+       guided SMALLINT, finished SMALLINT, attempt BIGINT, device TEXT, device_max_n DOUBLE PRECISION,
+       voxel_um DOUBLE PRECISION, engine TEXT, recording_hash TEXT, recording_uri TEXT))",
+    R"(CREATE TABLE score (id TEXT PRIMARY KEY, session_id TEXT NOT NULL REFERENCES session(id),
+       rubric_hash TEXT NOT NULL REFERENCES rubric(hash), engine TEXT NOT NULL, part TEXT NOT NULL,
+       total DOUBLE PRECISION, gates_broken BIGINT, assessable_weight DOUBLE PRECISION, made_ms BIGINT,
+       UNIQUE (session_id, rubric_hash, engine, part)))",
+    R"(CREATE TABLE item (score_id TEXT NOT NULL REFERENCES score(id), item_id TEXT NOT NULL,
+       result TEXT NOT NULL, value DOUBLE PRECISION, threshold DOUBLE PRECISION, margin DOUBLE PRECISION,
+       evidence_json TEXT, PRIMARY KEY (score_id, item_id)))",
+    R"(CREATE TABLE metric (session_id TEXT NOT NULL REFERENCES session(id), name TEXT NOT NULL,
+       unit TEXT NOT NULL, value DOUBLE PRECISION, PRIMARY KEY (session_id, name)))",
+    R"(CREATE TABLE self_mark (session_id TEXT NOT NULL REFERENCES session(id), item_id TEXT NOT NULL,
+       mark TEXT NOT NULL, PRIMARY KEY (session_id, item_id)))",
+    R"(CREATE TABLE rater_mark (id TEXT PRIMARY KEY, session_id TEXT NOT NULL REFERENCES session(id),
+       rater_id TEXT NOT NULL, item_id TEXT NOT NULL, mark TEXT NOT NULL, blinded SMALLINT NOT NULL, reason TEXT,
+       made_ms BIGINT))",
+    R"(CREATE TABLE standard (id TEXT PRIMARY KEY, rubric_hash TEXT REFERENCES rubric(hash), method TEXT,
+       cut DOUBLE PRECISION, n_low BIGINT, n_high BIGINT, fp DOUBLE PRECISION, fn DOUBLE PRECISION, text TEXT))",
+    R"(CREATE TABLE decision (session_set_json TEXT NOT NULL, learner_id TEXT NOT NULL REFERENCES learner(id),
+       standard_id TEXT NOT NULL REFERENCES standard(id), outcome TEXT NOT NULL, confirmed_by TEXT NOT NULL,
+       reason TEXT, made_ms BIGINT))",
+    R"(CREATE TABLE outbox (id TEXT PRIMARY KEY, statement_json TEXT NOT NULL, state TEXT NOT NULL,
+       tries BIGINT NOT NULL, next_ms BIGINT))",
+    R"(CREATE TABLE audit (ms BIGINT NOT NULL, who TEXT NOT NULL, what TEXT NOT NULL, subject TEXT NOT NULL))",
 };
 
 // what the lists ask for
@@ -62,22 +57,22 @@ constexpr Sql kSecond[] = {
 // A server keeps the most frequent values of a column apart, for its planner: names and pseudonyms would outlive their
 // rows there. No such figures are made, and a type that is set again drops those that are there.
 constexpr Sql kThirdOfServer[] = {
-    "ALTER TABLE names.person ALTER learner_id SET STATISTICS 0, ALTER name SET STATISTICS 0, "
-    "ALTER mail SET STATISTICS 0, ALTER external_id SET STATISTICS 0",
-    "ALTER TABLE names.person ALTER learner_id TYPE TEXT, ALTER name TYPE TEXT, "
-    "ALTER mail TYPE TEXT, ALTER external_id TYPE TEXT",
+    R"(ALTER TABLE names.person ALTER learner_id SET STATISTICS 0, ALTER name SET STATISTICS 0,
+       ALTER mail SET STATISTICS 0, ALTER external_id SET STATISTICS 0)",
+    R"(ALTER TABLE names.person ALTER learner_id TYPE TEXT, ALTER name TYPE TEXT, ALTER mail TYPE TEXT,
+       ALTER external_id TYPE TEXT)",
     "ALTER TABLE learner ALTER id SET STATISTICS 0",
     "ALTER TABLE learner ALTER id TYPE TEXT",
-    "ALTER TABLE session ALTER id SET STATISTICS 0, ALTER learner_id SET STATISTICS 0, "
-    "ALTER recording_uri SET STATISTICS 0, ALTER recording_hash SET STATISTICS 0",
-    "ALTER TABLE session ALTER id TYPE TEXT, ALTER learner_id TYPE TEXT, "
-    "ALTER recording_uri TYPE TEXT, ALTER recording_hash TYPE TEXT",
+    R"(ALTER TABLE session ALTER id SET STATISTICS 0, ALTER learner_id SET STATISTICS 0,
+       ALTER recording_uri SET STATISTICS 0, ALTER recording_hash SET STATISTICS 0)",
+    R"(ALTER TABLE session ALTER id TYPE TEXT, ALTER learner_id TYPE TEXT, ALTER recording_uri TYPE TEXT,
+       ALTER recording_hash TYPE TEXT)",
     "ALTER TABLE cohort_member ALTER learner_id SET STATISTICS 0",
     "ALTER TABLE cohort_member ALTER learner_id TYPE TEXT",
-    "ALTER TABLE decision ALTER learner_id SET STATISTICS 0, "
-    "ALTER confirmed_by SET STATISTICS 0, ALTER session_set_json SET STATISTICS 0",
-    "ALTER TABLE decision ALTER learner_id TYPE TEXT, ALTER confirmed_by TYPE TEXT, "
-    "ALTER session_set_json TYPE TEXT",
+    R"(ALTER TABLE decision ALTER learner_id SET STATISTICS 0, ALTER confirmed_by SET STATISTICS 0,
+       ALTER session_set_json SET STATISTICS 0)",
+    R"(ALTER TABLE decision ALTER learner_id TYPE TEXT, ALTER confirmed_by TYPE TEXT,
+       ALTER session_set_json TYPE TEXT)",
     "ALTER TABLE rater_mark ALTER rater_id SET STATISTICS 0, ALTER session_id SET STATISTICS 0",
     "ALTER TABLE rater_mark ALTER rater_id TYPE TEXT, ALTER session_id TYPE TEXT",
     "ALTER TABLE outbox ALTER statement_json SET STATISTICS 0",
@@ -93,8 +88,8 @@ constexpr Sql kThirdOfServer[] = {
 };
 
 constexpr Sql kNames[] = {
-    "CREATE TABLE IF NOT EXISTS names.person (learner_id TEXT PRIMARY KEY, name TEXT, mail TEXT, "
-    "external_id TEXT)",
+    R"(CREATE TABLE IF NOT EXISTS names.person (learner_id TEXT PRIMARY KEY, name TEXT, mail TEXT,
+       external_id TEXT))",
 };
 
 // From version v to the next one.
