@@ -210,9 +210,9 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set_tests_properties(page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long
     FIXTURES_REQUIRED portable_web)
 
-  # the instructor's page, in a browser
+  # the instructor's page, in a browser; its replay draws with the page that portable.web has built
   add_test(NAME school_page COMMAND ${checks}/school_page.sh ${CMAKE_BINARY_DIR})
-  set_tests_properties(school_page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 LABELS long)
+  set_tests_properties(school_page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_web)
 
   # libFuzzer: 3 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)

@@ -27,7 +27,7 @@ if(BURR_APP)
 
   # ... and so does the instructor's page
   set(BURR_PAGE_FILES "")
-  foreach(file index.html school.css school.mjs words.mjs)
+  foreach(file index.html school.css school.mjs live.mjs replay.mjs words.mjs)
     set(path ${PROJECT_SOURCE_DIR}/web/school/${file})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
     get_filename_component(ending ${file} LAST_EXT)
@@ -42,7 +42,7 @@ if(BURR_APP)
   function(burr_of_program target)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
       ${PROJECT_SOURCE_DIR}/third_party)
-    target_link_libraries(${target} PRIVATE burr burr_school burr_serve burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
+    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_serve burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
     burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp> ${ARGN})
@@ -53,7 +53,7 @@ if(BURR_APP)
   endfunction()
 
   # the parts that tests use as well, compiled once: the window, the report, the doctor, and what they need
-  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/film_file commands/hand_options commands/html_page commands/interrupt commands/outputs commands/picture_size commands/piece_words commands/recording commands/session_words commands/tool_options commands/work
+  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/film_file commands/hand_options commands/html_page commands/interrupt commands/outputs commands/picture_size commands/piece_words commands/recording commands/session_words commands/tool_options commands/work serve/stations
     devices/trial devices/trial_words doctor/run_in_process doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
   file(GLOB_RECURSE window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)

@@ -19,7 +19,11 @@ EM_JS(char*, burr_name_of_gpu, (), {
   return text;
 });
 
-constexpr const char* kCanvas = "#picture";  // in pages/mill/index.html
+// A page may have several canvases, each with a module of its own: after it is made, this one may get another name.
+EM_JS(int, burr_width_of_canvas, (), { return GLctx.canvas.width; });
+EM_JS(int, burr_height_of_canvas, (), { return GLctx.canvas.height; });
+
+constexpr const char* kCanvas = "#picture";
 
 }  // namespace
 
@@ -75,7 +79,8 @@ void Context::swap() {}                 // the browser shows the canvas when the
 void Context::wait_for_screen(bool) {}  // it always does
 void Context::title(const std::string&) {}
 void Context::size(int& width, int& height) const {
-  emscripten_get_canvas_element_size(kCanvas, &width, &height);
+  width = burr_width_of_canvas();
+  height = burr_height_of_canvas();
 }
 
 }  // namespace burr::render::gl

@@ -12,6 +12,9 @@
 #include <cstdio>
 #include <cstring>
 #include <deque>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -20,6 +23,7 @@
 #include "burr/base/progress.h"
 #include "burr/math/rotation.h"
 #include "burr/phantom/build.h"
+#include "burr/record/bone_blob.h"
 #include "burr/record/player.h"
 #include "burr/render/soft_scene.h"
 #include "burr/surface/mesher.h"
@@ -36,6 +40,7 @@ using namespace burr;
 using math::Vec3;
 
 constexpr std::size_t kReserveBricks = 2048;
+constexpr const char* kBoneBeside = "/burr.bone";
 constexpr double kRpm = 80000;  // cases/temporal_bone.toml
 
 // A piece of surface for the page.
@@ -120,6 +125,17 @@ void drain(Core& c) {
   c.why = drained.error().text;
   c.servo->set_recorder_rings({});
   c.recorder.reset();
+}
+
+// The bone of a recording that does not hold it, from the file "/burr.bone" (record/bone_blob.h).
+Result<std::unique_ptr<volume::Bone>> bone_beside(const record::SessionInfo& info) {
+  std::ifstream in(kBoneBeside, std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  auto bone = record::bone_from_blob(
+      bytes, static_cast<std::size_t>(info.volume.recipe.reserve_bricks), kBoneBeside);
+  if (bone && (*bone)->content_hash() != info.volume.content_hash)
+    return error(Trouble::data, std::string(kBoneBeside) + ": is not the bone of this recording");
+  return bone;
 }
 
 }  // namespace
@@ -245,7 +261,7 @@ EMSCRIPTEN_KEEPALIVE void core_command(int kind, double value) {
 
 // ---- a recording is watched: core_open() instead of core_make() and core_begin(), then core_seek()
 
-// Opens the recording PageRecorder::kFile, which holds its bone. 0: core_why() says why not.
+// Opens the recording PageRecorder::kFile, which holds its bone, or has it beside it. 0: core_why() says why not.
 EMSCRIPTEN_KEEPALIVE int core_open() {
   core = std::make_unique<Core>();
   auto player = record::Player::open(web::PageRecorder::kFile);
@@ -253,7 +269,9 @@ EMSCRIPTEN_KEEPALIVE int core_open() {
     core->why = player.error().text;
     return 0;
   }
-  auto bone = (*player)->embedded_bone();
+  const record::SessionInfo& info = (*player)->info();
+  auto bone = info.embedded || !std::filesystem::exists(kBoneBeside) ? (*player)->embedded_bone()
+                                                                     : bone_beside(info);
   if (!bone) {
     core->why = bone.error().text;
     return 0;

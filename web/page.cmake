@@ -26,7 +26,8 @@ set(hands ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/mouse_aim.cpp ${PROJECT_S
 set(record pen mcap/mcap_writer schema session_info view course grid_json tool_json identity private_text bone_blob
   player player_notes assumed_tool mcap/mcap_reader)
 list(TRANSFORM record REPLACE "(.+)" "${src}/record/\\1.cpp")
-list(APPEND record ${src}/sim/session_words.cpp ${src}/scenario/recipe.cpp ${src}/base/printable.cpp)
+list(APPEND record ${src}/sim/session_words.cpp ${src}/scenario/recipe.cpp ${src}/scenario/case_text.cpp
+  ${src}/base/printable.cpp)
 file(GLOB web CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/*.cpp)
 
 add_library(burr_page_parts OBJECT ${render} ${phantom} ${record} ${hands} ${src}/workshop/work_view.cpp)

@@ -11,9 +11,14 @@ import os
 import pathlib
 import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
+import time
+import urllib.error
+import urllib.parse
+import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "web/tests"))
@@ -52,7 +57,7 @@ def store_in(folder):
 
 class Serving:
     def __init__(self, store):
-        self.process = subprocess.Popen([BURR, "serve", "--store", store, "--port", "0"], stdout=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen([BURR, "serve", "--store", store, "--port", "0", "--live"], stdout=subprocess.PIPE, text=True)
         said = ""
         while "Ctrl-C" not in said:
             line = self.process.stdout.readline()
@@ -60,6 +65,7 @@ class Serving:
             said += line
         self.url = re.search(r"http://\S+", said).group(0)
         self.base, self.token = self.url.split("#token=")
+        self.station_token = re.search(r"^  ([0-9a-f]{64})$", said, re.M).group(1)
 
     def __enter__(self):
         return self
@@ -93,9 +99,13 @@ def look(page, name):
     same(serious, [], "serious faults of accessibility at " + name)
 
 
+def speak(page, language):
+    page.run(f"(() => {{ const one = document.getElementById('language'); one.value = '{language}'; one.dispatchEvent(new Event('change')); }})()")
+
+
 def check_views(page, views):
     for language in ("en", "sv", "de"):
-        page.run(f"(() => {{ const one = document.getElementById('language'); one.value = '{language}'; one.dispatchEvent(new Event('change')); }})()")
+        speak(page, language)
         for name, path in views.items():
             go(page, path)
             assert page.run("document.querySelector('h1').textContent.length") > 2, name
@@ -103,6 +113,159 @@ def check_views(page, views):
             look(page, f"{name}_{language}")
             if language == "en":
                 print(f"{name}: {page.run('document.body.dataset.shown')} ms")
+
+
+def asked(server, path, token=None):
+    """(status, body) without a browser."""
+    request = urllib.request.Request(server.base + path.lstrip("/"), headers={"Authorization": "Bearer " + (token or server.token)})
+    try:
+        with urllib.request.urlopen(request, timeout=WAIT) as answer:
+            return answer.status, answer.read()
+    except urllib.error.HTTPError as refused:
+        return refused.code, refused.read()
+
+
+def line_of(server, session):
+    while True:
+        status, body = asked(server, f"api/replay?session={session}")
+        if status != 202:
+            return status, json.loads(body)
+        time.sleep(0.2)
+
+
+def check_replay_answers(server, store, folder, session, recording):
+    """The time line, and the recording byte for byte; nothing of another file, and nothing of a session that has gone."""
+    status, line = line_of(server, session)
+    same(status, 200, "status of a replay")
+    told = json.loads(run("score", recording, "--json").splitlines()[-1])
+    unmet = {item["id"] for item in told["items"] if item["verdict"] == "unmet"}
+    assert {one["id"] for one in line["lost"]} <= unmet and line["lost"], (line["lost"], unmet)
+    assert all(0 <= one["at_s"] <= line["seconds"] for one in line["lost"]), line["lost"]
+    assert len(line["steps"]) >= 2 and line["steps"][0]["from_s"] < line["steps"][-1]["to_s"], line["steps"]
+    same(len(line["force_n"]), len(line["nearest_mm"]), "parts of the time line")
+    found = b""
+    while len(found) < line["bytes"]:
+        status, part = asked(server, f"api/replay/recording?session={session}&from={len(found)}")
+        assert status == 200 and part, status
+        found += part
+    assert found == recording.read_bytes(), "the recording that came is another one"
+    for begin in ("-1", "x", "", str(line["bytes"] + 1), "1e3"):
+        same(asked(server, f"api/replay/recording?session={session}&from={begin}")[0], 400, f"status for the byte {begin!r}")
+    for path in ("api/replay", "api/replay/recording", "api/replay/bone"):
+        same(asked(server, f"{path}?session={session}&from=0", "0" * 64)[0], 401, path + " without the token")
+        same(asked(server, f"{path}?session=nobody&from=0")[0], 404, path + " of no session")
+    # an address in the store that leads to another file; a recording that was written again
+    database = sqlite3.connect(store)
+
+    def with_uri(uri):
+        with database:
+            database.execute("INSERT INTO session SELECT 'odd', learner_id, case_hash, started_ms, seconds, mode, guided, finished, attempt, device, "
+                             "device_max_n, voxel_um, engine, recording_hash, ? FROM session WHERE id = ?", (uri, session))
+        status, answer = line_of(server, "odd")
+        with database:
+            database.execute("DELETE FROM session WHERE id = 'odd'")
+        return status, answer.get("error", answer)
+
+    host = database.execute("SELECT recording_uri FROM session WHERE id = ?", (session,)).fetchone()[0].split("/")[2]
+    for uri, why in ((f"file://{host}/etc/passwd", "has changed"), ("file://elsewhere/x.mcap", "on another computer"), ("", "without its recording"),
+                     (f"file://{host}/dev/zero", "not on this computer"), (f"file://{host}{folder}/none.mcap", "not on this computer")):
+        status, said = with_uri(uri)
+        assert status == 409 and why in said, (uri, status, said)
+    before = recording.stat()
+    with open(recording, "r+b") as file:
+        file.write(b"X")
+    same(asked(server, f"api/replay/recording?session={session}&from=0")[0], 409, "status of a recording that has changed")
+    with open(recording, "r+b") as file:
+        file.write(found[:1])
+    os.utime(recording, ns=(before.st_atime_ns, before.st_mtime_ns))
+    database.close()
+
+
+def check_replay(page, sessions):
+    """In the page: the time line, jumps to lost points, the bone; two sessions step by step."""
+    built = (BURR.parent / "../web/site/burr_page.wasm").exists()
+    speak(page, "en")
+    go(page, "/replay/" + sessions[0])
+    page.wait("document.querySelector('.player')", WAIT)
+    drawn = "[...document.querySelectorAll('.bone-state')].every(one => one.textContent === '')"
+    stopped = "document.querySelectorAll('.bone-state.wrong').length"
+    page.wait(f"{drawn} || {stopped} > 0", 4 * WAIT)
+    same(page.run(stopped), 0 if built else 1, "troubles of the picture: " + page.run("document.querySelector('.bone-state').textContent"))
+    moment = "document.querySelector('.figures').textContent"
+    first = page.run(moment)
+    button = "[...document.querySelectorAll('main button')].find(one => one.textContent === {})"
+    page.run(button.format("'Lost point ▶'") + ".click()")
+    at = float(page.run("document.querySelector('.player input').value"))
+    lost = page.run("[...document.querySelectorAll('svg .lost')].map(one => Number(one.getAttribute('x1')))")
+    total = float(page.run("document.querySelector('.player input').max"))
+    assert lost and min(abs(x / 1000 * total - at) for x in lost) < 0.01 * total, (lost, at, total)
+    assert page.run(moment) != first, "the words of the moment stand still"
+    if built:
+        page.wait("window.performance.now() > 0 && document.querySelector('canvas.bone').width > 100", WAIT)
+    look(page, "replay")
+    page.run(button.format("'Play'") + ".click()")
+    page.wait(f"Number(document.querySelector('.player input').value) !== {at}", WAIT)
+    page.run(button.format("'Pause'") + ".click()")
+    # an item's moment in the session's table leads into the replay; a moment in the address is taken
+    go(page, f"/replay/{sessions[0]}/3")
+    page.wait("document.querySelector('.player')", WAIT)
+    same(page.run("Number(document.querySelector('.player input').value)"), 3, "the moment of the address")
+    go(page, "/beside/" + "/".join(sessions))
+    page.wait("document.querySelector('.two')", 2 * WAIT)
+    page.wait(f"{drawn} || {stopped} > 0", 4 * WAIT)
+    same(page.run(stopped), 0 if built else 2, "troubles of the two pictures")
+    steps = int(page.run("document.querySelector('.player input').max"))
+    assert steps >= 2, "steps in common"
+    page.run("(() => { const one = document.querySelector('.player input'); one.value = 1.5; one.dispatchEvent(new Event('input')); })()")
+    titles = page.run("[...document.querySelectorAll('.figures')].map(one => /Step: (.*?)[.] /.exec(one.textContent)[1])")
+    same(titles[0], titles[1], "the step that both show")
+    look(page, "beside")
+    same(page.run("document.querySelectorAll('.two canvas').length"), 2, "pictures beside each other")
+    # another view ends the pictures
+    go(page, "/")
+
+
+def check_live(page, server, folder):
+    """A station with a window of its own, without a screen: its picture comes, a word and a mark reach it."""
+    # its token reads nothing, and the page's token is no station's
+    for path in ("api/overview", "api/live", "api/live/picture?station=x"):
+        same(asked(server, path, server.station_token)[0], 401, path + " with the token of the stations")
+    same(asked(server, "api/station?name=x")[0], 401, "a station with the token of the page")
+    speak(page, "en")
+    go(page, "/live")
+    assert "No station" in page.run("document.querySelector('main').textContent")
+    token = folder / "station.token"
+    token.write_text(server.station_token)
+    token.chmod(0o600)
+    name = 'place "4" <b>å</b>'
+    station = subprocess.Popen([BURR, "run", "block", "--no-sound", "--learner", "heron-1000", "--live", server.base, "--live-token-file", token, "--station", name,
+                                "--out", folder / "live", "--seconds", "600"],
+                               env={**os.environ, "DISPLAY": ":none", "SDL_VIDEODRIVER": "offscreen", "XDG_DATA_HOME": str(folder / "data"), "XDG_CONFIG_HOME": str(folder / "config")},
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    try:
+        page.wait(f"document.querySelector('main').textContent.includes({json.dumps(name)})", WAIT)
+        same(page.run("document.querySelectorAll('main b').length"), 0, "elements out of a station's name")
+        go(page, "/live/" + urllib.parse.quote(name, safe=""))
+        page.wait("document.querySelector('img.live').naturalWidth === 640", WAIT)
+        facts = page.run("document.querySelector('.facts').textContent")
+        assert "heron-1000" in facts, facts
+        page.wait("document.querySelector('img.live').dataset.rate > 0", WAIT)
+        print(f"live: {page.run('document.querySelector(`img.live`).dataset.rate')} pictures a second")
+        page.run("(() => { const one = document.querySelector('img.live'), box = one.getBoundingClientRect();"
+                 " one.dispatchEvent(new MouseEvent('click', {clientX: box.left + box.width / 2, clientY: box.top + box.height / 2})); })()")
+        same(page.run("document.querySelector('.ring').hidden"), False, "whether the mark is hidden")
+        page.run("document.getElementById('word').value = 'slower here'")
+        page.run("[...document.querySelectorAll('main button')].find(one => one.textContent === 'Send').click()")
+        page.wait("/◎ slower here – the station has it/.test(document.querySelector('main ul').textContent)", WAIT)
+        time.sleep(1)  # the word is in the picture that comes back
+        look(page, "live")
+    finally:
+        station.send_signal(signal.SIGINT)
+        said = station.communicate(timeout=WAIT)[1]
+    same(station.returncode in (0, 130), True, f"exit code {station.returncode} of the station: {said}")
+    # the recording says that the instructor helped
+    told = run("info", folder / "live/session.mcap")
+    assert "help was shown" in told, told
 
 
 def main():
@@ -118,6 +281,8 @@ def main():
             first = page.run("fetch('/api/learner?id=heron-1000', {headers: {Authorization: 'Bearer ' + sessionStorage.getItem('burr-token')}}).then(a => a.json())")
             sessions = [one["id"] for one in first["sessions"]]
             same(len(sessions), 2, "sessions")
+            # which recording is whose: by the name that the page shows
+            names = [json.loads(asked(server, "api/session?id=" + one)[1])["recording"] for one in sessions]
             cohort = overview["cohorts"][0]["id"]
             check_views(page, {"overview": "/", "cohort": f"/cohort/{cohort}/tooth", "learner": "/learner/heron-1000",
                                "learner_without": "/learner/heron-1003", "session": "/session/" + sessions[0],
@@ -129,6 +294,9 @@ def main():
             # the items that were met, as the store has them
             cells = page.run("[...document.querySelectorAll('.heat tbody tr:first-child td')].map(cell => cell.textContent)")
             assert any(re.fullmatch(r"\d/2", cell) for cell in cells), cells
+            check_replay_answers(server, store, place, sessions[0], pathlib.Path(place) / names[0])
+            check_replay(page, sessions)
+            check_live(page, server, pathlib.Path(place))
             # unknown things
             for path in ("/learner/nobody-1", "/session/x", "/cohort/x/tooth"):
                 page.run("document.getElementById('state').className = ''")

@@ -321,6 +321,35 @@ TEST(Serve, TokensAreLongAndKeptForTheirOwner) {
   }
 }
 
+// A station's token posts pictures to one address; the page's token does not, and neither reads with the other's.
+TEST(Serve, AStationsTokenReadsNothing) {
+  Guard guard;
+  guard.hosts = {"127.0.0.1:1"};
+  guard.token = std::string(64, 'a');
+  const auto asked = [&](const std::string& method, const std::string& path, char token,
+                         const std::string& type) {
+    Request request;
+    request.method = method;
+    request.path = path;
+    request.fields = {{"host", "127.0.0.1:1"},
+                      {"authorization", "Bearer " + std::string(64, token)},
+                      {"content-type", type}};
+    const auto refusal = refused(request, guard);
+    return refusal ? refusal->status : 200;
+  };
+  EXPECT_EQ(asked("POST", kStationPath, 'b', "image/jpeg"), 404) << "no stations are taken";
+  guard.station_token = std::string(64, 'b');
+  EXPECT_EQ(asked("POST", kStationPath, 'b', "image/jpeg"), 200);
+  EXPECT_EQ(asked("POST", kStationPath, 'a', "image/jpeg"), 401);
+  EXPECT_EQ(asked("GET", kStationPath, 'b', "image/jpeg"), 405);
+  EXPECT_EQ(asked("POST", kStationPath, 'b', "text/plain"), 415) << "a form of another page";
+  for (const char* path : {"/api/overview", "/api/live", "/api/station/", "/api/replay"})
+    EXPECT_EQ(asked("GET", path, 'b', ""), 401) << path;
+  EXPECT_EQ(asked("GET", "/api/live", 'a', ""), 200);
+  EXPECT_EQ(asked("POST", "/api/live/say", 'a', "application/json"), 200);
+  EXPECT_EQ(asked("POST", "/api/live/say", 'a', "image/jpeg"), 415);
+}
+
 TEST(Serve, SaysWhyItCannotOpen) {
   Running first;
   Door door;

@@ -1,6 +1,8 @@
 // The instructor's page: what the store says, as tables and one kind of chart. Texts of people enter the page as text
 // nodes only, never as markup. The token comes in the part of the address after '#' and stays in this tab.
 import { words } from "./words.mjs";
+import { live } from "./live.mjs";
+import { beside, replay } from "./replay.mjs";
 
 const needed = 5;  // sessions without guidance before a figure means something
 const idleDays = 14;
@@ -52,14 +54,19 @@ function takeToken() {
   sessionStorage.setItem("burr-token", decodeURIComponent(found[1]));
   history.replaceState(null, "", location.pathname + "#/");
 }
-async function ask(path) {
+async function raw(path, more = {}, fields = {}) {
   let answer;
   try {
-    answer = await fetch("/api/" + path, { headers: { Authorization: "Bearer " + (sessionStorage.getItem("burr-token") ?? "") } });
+    answer = await fetch("/api/" + path, { ...more, headers: { Authorization: "Bearer " + (sessionStorage.getItem("burr-token") ?? ""), ...fields } });
   } catch {
     throw new Error(say("gone"));
   }
   if (answer.status === 401) throw new Error(say("token"));
+  return answer;
+}
+const post = (path, content) => ask(path, { method: "POST", body: JSON.stringify(content) }, { "Content-Type": "application/json" });
+async function ask(path, more, fields) {
+  const answer = await raw(path, more, fields);
   const type = answer.headers.get("Content-Type") ?? "";
   if (!type.startsWith("application/json")) return answer.blob();
   const out = await answer.json();
@@ -181,10 +188,10 @@ const signs = { met: "✓", unmet: "✗", "not assessable": "–" };
 const kinds = { met: "good", unmet: "bad", "not assessable": "none" };
 const resultWord = result => (signs[result] ?? "") + " " + say(result.replace(" ", "_"));
 
-function evidence(item) {
+function evidence(item, session) {
   const times = item.evidence ?? [];
   if (times.length === 0) return item.place_mm ? say("evidence_place", { place: item.place_mm.map(x => number(x)).join("; ") }) : "–";
-  return times.slice(0, 5).map(t => say("evidence_at", { t: number(t) })).join(", ") + (times.length > 5 ? ", " + say("one_more", { n: times.length - 5 }) : "");
+  return el("td", {}, times.slice(0, 5).flatMap((t, n) => [n ? ", " : null, link(to("replay", session, t), say("evidence_at", { t: number(t) }))]), times.length > 5 ? ", " + say("one_more", { n: times.length - 5 }) : null);
 }
 
 async function session(id) {
@@ -194,13 +201,14 @@ async function session(id) {
     [say("mode"), all.mode + ", " + say(all.guided ? "guided" : "free_of_help") + ", " + say(all.finished ? "finished" : "unfinished")],
     [say("duration"), say("minutes", { n: number(all.seconds / 60) })], [say("device"), all.device || "–"], [say("voxel"), number(all.voxel_um) + " µm"],
     [say("recording"), all.recording]]));
+  out.push(el("p", {}, link(to("replay", id), say("replay"))));
   if (all.calibrated < all.items.length) out.push(el("p", { class: "note" }, say("default_note", { n: all.calibrated, of: all.items.length })));
   for (const which of ["product", "process"]) {
     const items = all.items.filter(item => item.part === which);
     if (items.length === 0) continue;
     out.push(el("h2", {}, say(which)));
     out.push(table(say(which), [[say("item")], [say("result")], [say("value"), "number"], [say("threshold"), "number"], [say("self")], [say("evidence")]],
-      items.map(item => [textOf(item.say, item.id), el("td", { class: kinds[item.result] ?? null }, resultWord(item.result)), number(item.value), number(item.threshold), item.self ? say(item.self === "unknown" ? "none" : item.self) : "–", evidence(item)])));
+      items.map(item => [textOf(item.say, item.id), el("td", { class: kinds[item.result] ?? null }, resultWord(item.result)), number(item.value), number(item.threshold), item.self ? say(item.self === "unknown" ? "none" : item.self) : "–", evidence(item, id)])));
   }
   const others = all.others;
   if (others.length) {
@@ -226,7 +234,7 @@ async function compare(a, b) {
     })));
   tick.addEventListener("change", draw);
   draw();
-  out.push(el("p", {}, link(to("session", a), name(first)), " · ", link(to("session", b), name(second))), el("div", { class: "row" }, el("label", {}, tick, " " + say("differs"))), place);
+  out.push(el("p", {}, link(to("session", a), name(first)), " · ", link(to("session", b), name(second)), " · ", link(to("beside", a, b), say("replay_beside"))), el("div", { class: "row" }, el("label", {}, tick, " " + say("differs"))), place);
   return out;
 }
 
@@ -245,7 +253,10 @@ async function download() {
 
 // ---- the frame
 
-const views = { "": overview, cohort, learner, session, compare, audit };
+// what the views in other files need
+const kit = { el, say, ask, post, raw, link, to, number, time, textOf, table, facts, language: () => language };
+const views = { "": overview, cohort, learner, session, compare, audit, live: name => live(kit, name),
+  replay: (id, at) => replay(kit, id, at), beside: (first, second) => beside(kit, first, second) };
 
 function frame() {
   document.documentElement.lang = language;
@@ -257,7 +268,7 @@ function frame() {
   const entry = (path, key) => el("a", { href: "#" + path, "aria-current": here === path ? "page" : null }, say(key));
   const csv = el("a", { href: "#" + here }, say("csv"));
   csv.addEventListener("click", event => { event.preventDefault(); download().catch(wrong); });
-  document.getElementById("nav").replaceChildren(entry("/", "overview"), entry("/audit", "audit"), csv);
+  document.getElementById("nav").replaceChildren(entry("/", "overview"), entry("/live", "stations"), entry("/audit", "audit"), csv);
 }
 function wrong(trouble) {
   const state = document.getElementById("state");

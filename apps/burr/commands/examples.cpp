@@ -91,6 +91,7 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"compare", "a.mcap b.mcap", "in the terminal"},
     {"compare", "a.mcap b.mcap --out both.html", "as a page with pictures"},
     {"serve", "", "on this computer, port 8231"},
+    {"serve", "--live", "running stations can be watched"},
     {"serve", "--store postgresql://school.example/school --port 9000", "a centre's database"},
     {"study reliability", "marks.csv --marks 5", "how far marks would be the same again"},
     {"study standard", "groups.csv --method contrasting", "where a cut may lie"},

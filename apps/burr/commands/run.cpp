@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include <unistd.h>
+
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -17,6 +20,7 @@
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
 #include "burr/render/renderer.h"
+#include "burr/serve/guard.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/prepare.h"
@@ -41,6 +45,7 @@
 #include "window/shell/loading.h"
 #include "window/shell/pages.h"
 #include "window/shell/words.h"
+#include "window/station/station_link.h"
 
 namespace burr::app {
 namespace {
@@ -52,7 +57,7 @@ constexpr double kHeadlessSeconds = 20;
 
 struct Options {
   WorkOptions work;
-  std::string out, screenshot, store;
+  std::string out, screenshot, store, live, live_token, station;
   double seconds = 0;
   bool headless = false, no_sound = false, xr = false, force = false;
 };
@@ -310,6 +315,23 @@ Result<Closed> session_in_window(Desk& desk, const Options& options) {
                              : mill_into_folder(desk, *loaded, options, window);
 }
 
+// With --live: this station appears on the instructor's page.
+Status show_to_instructor(Desk& desk, const Options& options) {
+  if (options.live.empty()) return fine();
+  auto token = serve::token_from(options.live_token);
+  if (!token) return token.error();
+  std::string name = options.station;
+  if (name.empty()) {
+    std::array<char, 256> host = {};
+    name = ::gethostname(host.data(), host.size() - 1) == 0 ? host.data() : "burr";
+  }
+  auto link = StationLink::open({options.live, *token, name});
+  if (!link) return link.error();
+  desk.station = std::move(*link);
+  desk.station_learner = options.work.identity.learner;
+  return fine();
+}
+
 // The start page, or sessions on what was named.
 Status run_in_window(Options options) {
   const std::filesystem::path folder = options.out;
@@ -321,6 +343,7 @@ Status run_in_window(Options options) {
   auto desk = Desk::open(users_places());
   if (!desk) return desk.error();
   (*desk)->store = options.store;
+  if (const Status shown = show_to_instructor(**desk, options); !shown) return shown;
   enter_waiting(**desk);
   (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
   if (options.work.volume.source.empty())
@@ -406,6 +429,20 @@ void add(CLI::App& app, Todo& todo) {
                    "the store of learners for sessions with --learner (docs/school.md; default: "
                    "BURR_STORE, or the one in burr's data folder if it is there)")
       ->excludes("--headless");
+  auto* live = command->add_option("--live", options->live,
+                                   "https://SERVER:PORT of a `burr serve --live`: the instructor "
+                                   "sees this window and can send a "
+                                   "word or a mark; a line in the window says when it is watched");
+  live->excludes("--headless");
+  command
+      ->add_option("--live-token-file", options->live_token,
+                   "the file with the token of the stations, readable by you alone")
+      ->needs(live);
+  command
+      ->add_option("--station", options->station,
+                   "the name of this station there (default: the computer's)")
+      ->needs(live);
+  live->needs("--live-token-file");
   add_bone_option(*command, options->work.bone);
   add_volume_options(*command, options->work.volume);
   command->callback([options, touch, &todo] {

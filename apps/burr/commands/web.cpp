@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "burr/base/new_file.h"
+#include "commands/built_page.h"
 #include "commands/command.h"
 
 namespace burr::app {
@@ -19,23 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSign = "burr_page.wasm";  // a folder with this file is a page of burr
-
 struct Options {
   std::string out;
 };
-
-// The folder of the page: beside the build of this program, or of its installation.
-Result<fs::path> built_page() {
-  std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (const fs::path& folder : {program / "../web/site", program / "../share/burr/web"})
-    if (fs::exists(folder / kSign, none)) return fs::canonical(folder, none);
-  return error(Trouble::usage,
-               "the page is not built: install Debian's emscripten and nodejs (apt-get install "
-               "emscripten nodejs), and run ./run --web in the folder of burr's sources, or cmake "
-               "--preset web && cmake --build --preset web");
-}
 
 // Nothing of the user is overwritten: the folder is new, empty, or an older page.
 Status check_out(const fs::path& out) {
@@ -43,7 +29,7 @@ Status check_out(const fs::path& out) {
   if (!fs::exists(out, none)) return fine();
   if (!fs::is_directory(out, none))
     return error(Trouble::usage, fmt::format("--out {}: is no folder", out.string()));
-  if (!fs::is_empty(out, none) && !fs::exists(out / kSign, none))
+  if (!fs::is_empty(out, none) && !fs::exists(out / kSignOfPage, none))
     return error(Trouble::usage,
                  fmt::format("--out {}: holds other files; choose a new folder", out.string()));
   return fine();
@@ -70,10 +56,7 @@ Status run(const Options& options) {
   if (!page) return page.error();
   const fs::path out = options.out;
   if (const Status possible = check_out(out); !possible) return possible;
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(*page))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+  const std::vector<fs::path> files = files_of_page(*page);
   std::uintmax_t bytes = 0;
   for (const fs::path& file : files) {
     if (const Status copied = put_file(file, out / fs::relative(file, *page)); !copied)

@@ -15,6 +15,7 @@
 #include "burr/base/version.h"
 #include "burr/scenario/case.h"
 #include "report/advice.h"
+#include "report/evidence.h"
 #include "report/evidence_strip.h"
 #include "report/report_pictures.h"
 #include "report/report_words.h"
@@ -144,59 +145,6 @@ std::string moment_words(const Scored& scored, std::uint64_t tick) {
   return text + ".";
 }
 
-// The spot that is wrong and in the middle of those that are.
-std::optional<math::Vec3> wrong_spot(const std::vector<scoring::Spot>& spots) {
-  math::Vec3 sum = math::Vec3::Zero();
-  std::size_t wrong = 0;
-  for (const scoring::Spot& one : spots)
-    if (one.kind != scoring::Spot::Kind::good) {
-      sum += one.at;
-      ++wrong;
-    }
-  if (wrong == 0) return std::nullopt;
-  const math::Vec3 middle = sum / static_cast<double>(wrong);
-  const scoring::Spot* best = nullptr;
-  for (const scoring::Spot& one : spots)
-    if (one.kind != scoring::Spot::Kind::good &&
-        (best == nullptr || (one.at - middle).norm() < (best->at - middle).norm()))
-      best = &one;
-  return best->at;
-}
-
-// When the burr cut there; none: it never did.
-std::optional<double> cut_there(const Scored& scored, const math::Vec3& place) {
-  constexpr double kThere = 0.5e-3;  // from the surface of the burr [m]
-  std::optional<double> at;
-  double least = kThere;
-  for (const metrics::TrackSample& one : scored.score.shown.track.samples) {
-    if (!one.cutting()) continue;
-    const double far = (one.raw - place).norm() - one.radius;
-    if (far >= least) continue;
-    least = far;
-    at = one.t;
-  }
-  return at;
-}
-
-// The moment that decided; otherwise the place and when it was cut; what was never cut is seen at the
-// end. How it was worked (strokes, coolant) cannot be seen at one moment.
-void show_evidence(const Scored& scored, const scoring::Item& item, const scoring::Outcome& outcome,
-                   ReportItem& out) {
-  const std::string_view measure = item.how->name;
-  const bool region = measure == "removed" || measure == "kept";
-  if (outcome.verdict == Verdict::not_assessable) return;
-  out.place = outcome.place;
-  if (outcome.verdict == Verdict::unmet)
-    if (auto spot = wrong_spot(outcome.spots)) out.place = std::move(spot);
-  if (outcome.tick) {
-    out.at_s = static_cast<double>(*outcome.tick) / scored.judged.player->info().rate_hz;
-  } else if (out.place || region) {
-    const auto cut = out.place ? cut_there(scored, *out.place) : std::nullopt;
-    out.at_s = cut.value_or(scored.judged.player->seconds());
-    out.at_end = !cut;
-  }
-}
-
 ReportItem item_of(const Scored& scored, std::size_t n, const ReportSettings& settings) {
   const scoring::Item& item = scored.judged.rubric.items[n];
   const scoring::Outcome& outcome = scored.score.outcomes[n];
@@ -204,7 +152,10 @@ ReportItem item_of(const Scored& scored, std::size_t n, const ReportSettings& se
   out.id = item.id;
   out.text = item.say.in(spoken().code);
   out.gate = item.gate;
-  show_evidence(scored, item, outcome, out);
+  const Evidence seen = evidence_of(scored, n);
+  out.place = seen.place;
+  out.at_s = seen.at_s;
+  out.at_end = seen.at_end;
   out.machine = mark_of(item, outcome);
   if (const auto self = settings.self.find(item.id); self != settings.self.end())
     out.self = mark_of(self->second);

@@ -101,12 +101,14 @@ struct ReportLine {
   struct Span {
     double from_s = 0, to_s = 0;
     std::string name;
+    std::string id = {};  // of the step
   };
   std::vector<Span> steps;
   struct Event {
     double at_s = 0;
     std::string word;
     Tone tone = Tone::none;
+    std::string kind = {};  // record::word_of(CourseKind)
   };
   std::vector<Event> events;
   std::string nearest;  // a sentence: each structure, how near, when

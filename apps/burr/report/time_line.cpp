@@ -45,7 +45,7 @@ void add_course(const Scored& scored, ReportLine& line) {
     const scenario::Step* step = scored.judged.lesson.step(id);
     const std::string title = step != nullptr ? step->title.in(spoken().code) : id;
     line.steps.push_back(
-        {found != begun.end() ? found->second : end_s, end_s, title.empty() ? id : title});
+        {found != begun.end() ? found->second : end_s, end_s, title.empty() ? id : title, id});
     if (found != begun.end()) begun.erase(found);
   };
   for (const record::CourseEvent& event : player.course()) {
@@ -53,7 +53,10 @@ void add_course(const Scored& scored, ReportLine& line) {
     if (event.kind == CourseKind::step_begun || event.kind == CourseKind::step_reopened)
       begun[event.what] = at_s;
     if (event.kind == CourseKind::step_done) end_step(event.what, at_s);
-    if (auto shown = event_of(event, at_s)) line.events.push_back(std::move(*shown));
+    if (auto shown = event_of(event, at_s)) {
+      shown->kind = record::word_of(event.kind);
+      line.events.push_back(std::move(*shown));
+    }
   }
   while (!begun.empty()) end_step(std::string(begun.begin()->first), line.seconds);
 }

@@ -5,6 +5,9 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,15 +18,19 @@
 #include "burr/school/store.h"
 #include "burr/serve/guard.h"
 #include "burr/serve/http_server.h"
+#include "commands/built_page.h"
 #include "commands/command.h"
 #include "serve/page_files.h"
+#include "serve/replays.h"
 #include "serve/school_api.h"
+#include "serve/stations.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
-  std::string store, token_file;
+  std::string store, token_file, station_token_file;
+  bool live = false;
   serve::Door door;
   std::vector<std::string> names;
   int port = 8231;
@@ -54,7 +61,30 @@ Status check(const Options& options) {
   return fine();
 }
 
-serve::Response page(const serve::Request& request) {
+// The page, burr in a browser, whose view of bones the replay uses. Empty: it is not built.
+std::map<std::string, serve::Response> bone_view() {
+  std::map<std::string, serve::Response> out;
+  const auto folder = built_page();
+  if (!folder) return out;
+  const std::map<std::string, std::string> types = {{".js", "text/javascript; charset=utf-8"},
+                                                    {".mjs", "text/javascript; charset=utf-8"},
+                                                    {".wasm", "application/wasm"},
+                                                    {".json", "application/json; charset=utf-8"}};
+  for (const std::filesystem::path& file : files_of_page(*folder)) {
+    const auto type = types.find(file.extension().string());
+    if (type == types.end()) continue;
+    std::ifstream in(file, std::ios::binary);
+    serve::Response part;
+    part.type = type->second;
+    part.body.assign(std::istreambuf_iterator<char>(in), {});
+    out["/page/" + std::filesystem::relative(file, *folder).string()] = std::move(part);
+  }
+  return out;
+}
+
+serve::Response page(const serve::Request& request,
+                     const std::map<std::string, serve::Response>& view) {
+  if (const auto part = view.find(request.path); part != view.end()) return part->second;
   const std::string path = request.path == "/" ? "/index.html" : request.path;
   for (const PageFile& file : page_files())
     if (file.path == path) {
@@ -85,21 +115,48 @@ Status run(const Options& options) {
   if (!token) return token.error();
   serve::Guard guard;
   guard.token = *token;
+  if (options.live || !options.station_token_file.empty()) {
+    auto stations = options.station_token_file.empty()
+                        ? serve::new_token()
+                        : serve::token_from(options.station_token_file);
+    if (!stations) return stations.error();
+    if (*stations == guard.token)
+      return error(Trouble::usage,
+                   "--station-token-file and --token-file hold the same token; a "
+                   "station must not be able to read the store");
+    guard.station_token = *stations;
+  }
   guard.tls = !options.door.certificate.empty();
+  const auto view = bone_view();
+  Replays replays;
+  Stations stations;
   serve::Door door = options.door;
   door.port = static_cast<unsigned short>(options.port);
   auto server = serve::HttpServer::open(door, [&](const serve::Request& request) {
     if (auto refusal = serve::refused(request, guard)) return *refusal;
-    return request.path.starts_with("/api/") ? answer_of_school(**store, request) : page(request);
+    if (request.path == serve::kStationPath || request.path.starts_with("/api/live"))
+      return stations.answer(request, Stations::Clock::now());
+    if (request.path.starts_with("/api/replay")) return replays.answer(**store, request);
+    return request.path.starts_with("/api/") ? answer_of_school(**store, request)
+                                             : page(request, view);
   });
   if (!server) return server.error();
   guard.hosts = hosts_of(options, (*server)->port());
   for (const std::string& notice : (*store)->notices()) fmt::print(stderr, "{}\n", notice);
+  if (view.empty())
+    fmt::print(stderr, "the page can replay no session in 3D: {}\n", built_page().error().text);
   fmt::print(
       "store: {}\nOpen this address in a browser. Whoever has it can read the store:\n  "
-      "{}://{}/#token={}\nCtrl-C ends.\n",
+      "{}://{}/#token={}\n",
       school::shown(place->address), guard.tls ? "https" : "http", guard.hosts.front(),
       guard.token);
+  if (!guard.station_token.empty())
+    fmt::print(
+        "Stations show themselves with: burr run CASE --live {}://{} --live-token-file FILE\n"
+        "FILE, readable by its user alone, holds their token, with which they can read nothing:\n  "
+        "{}\n",
+        guard.tls ? "https" : "http", guard.hosts.front(), guard.station_token);
+  fmt::print("Ctrl-C ends.\n");
   std::fflush(stdout);
   (*server)->stop_at_signals({SIGINT, SIGTERM});
   (*server)->run();
@@ -126,6 +183,10 @@ void add(CLI::App& app, Todo& todo) {
                       "a name by which browsers reach this computer; can be repeated");
   command->add_option("--token-file", options->token_file,
                       "a file with the token, readable by you alone (default: a new token)");
+  command->add_flag("--live", options->live,
+                    "running stations can show themselves on the page (burr run --live)");
+  command->add_option("--station-token-file", options->station_token_file,
+                      "a file with the token of the stations (default with --live: a new token)");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }
 

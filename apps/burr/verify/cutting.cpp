@@ -60,7 +60,7 @@ Plunge soft(double h, const WorkSettings& settings) {
   return plunge(h, settings, kSoftEnergy, kSoftTarget, kSoftSeconds, kSoft);
 }
 
-void holes(const Verify& verify, Report::Part& part) {
+void holes(const Verify& verify, VerifyReport::Part& part) {
   // ---- plunge: depth and volume of a cap
   for (const double h_mm : verify.quick ? std::vector<double>{0.25} : std::vector{0.5, 0.25, 0.2}) {
     const Plunge one = soft(h_mm * kMm, {.radius = kR});
@@ -120,7 +120,7 @@ void holes(const Verify& verify, Report::Part& part) {
   }
 }
 
-void laws(Report::Part& part) {
+void laws(VerifyReport::Part& part) {
   // ---- the same hand at other tick rates and with other voxels
   const double h = 0.25 * kMm;
   const Plunge usual = soft(h, {.radius = kR});
@@ -171,7 +171,7 @@ void laws(Report::Part& part) {
 }
 
 // Can the hand feel how often material is removed? 30 times a second compared with every tick.
-void removal_loop(const Verify& verify, Report::Part& part) {
+void removal_loop(const Verify& verify, VerifyReport::Part& part) {
   const double h = 0.25 * kMm;
   Plot plot{
       "Force in a slot while bone is removed in every tick, and 30 times a second: at 30 Hz "
@@ -228,7 +228,7 @@ void removal_loop(const Verify& verify, Report::Part& part) {
   part.at_least("spectrum.30Hz_removal", 3 * wave30[0], wave30[1], "of the mean");
 }
 
-void cutting(const Verify& verify, Report::Part& part) {
+void cutting(const Verify& verify, VerifyReport::Part& part) {
   holes(verify, part);
   laws(part);
   removal_loop(verify, part);

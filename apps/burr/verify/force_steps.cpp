@@ -92,7 +92,7 @@ std::unique_ptr<volume::Bone> imported(bool labels, const scenario::Recipe& reci
   return made ? std::move(made->bone) : nullptr;
 }
 
-void formulas(Report::Part& part, Table& table) {
+void formulas(VerifyReport::Part& part, Table& table) {
   const volume::Grid grid =
       phantom::box_grid(Vec3::Constant(-12 * kMm), Vec3::Constant(12 * kMm), 0.4 * kMm);
   const double r = 2.5 * kMm;
@@ -171,7 +171,7 @@ constexpr Subject kSubjects[] = {
     {"temporal_bone", "temporal_bone/RT143_512.seg.nrrd", 0, false, true},
 };
 
-void real_bones(const Verify& verify, Report::Part& part, Table& table) {
+void real_bones(const Verify& verify, VerifyReport::Part& part, Table& table) {
   for (const Subject& subject : kSubjects) {
     const std::filesystem::path file = std::filesystem::path(verify.data) / subject.file;
     if (verify.data.empty() || !std::filesystem::exists(file)) {
@@ -211,7 +211,7 @@ void real_bones(const Verify& verify, Report::Part& part, Table& table) {
   }
 }
 
-void steps(const Verify& verify, Report::Part& part) {
+void steps(const Verify& verify, VerifyReport::Part& part) {
   Table table{
       fmt::format(
           "A firm hand presses the burr down and draws it along and back, {} mm/s on "

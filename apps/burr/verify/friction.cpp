@@ -42,7 +42,7 @@ std::unique_ptr<haptics::Proxy> press(const Scene& scene, double mu_static, doub
 }
 
 // The hand moves sideways by 0.1 um per tick until the burr slips.
-void stick_and_slip(const Scene& plane, Report::Part& part) {
+void stick_and_slip(const Scene& plane, VerifyReport::Part& part) {
   Plot slip{
       "How far the burr trails behind the hand as this is moved aside at 0.1 mm/s: it sticks "
       "(slope 1) until the cone is reached at mu_s times the depth, then slides at mu_k.",
@@ -71,7 +71,7 @@ void stick_and_slip(const Scene& plane, Report::Part& part) {
 }
 
 // Slopes just below and above the threshold, under a constant force straight down.
-void slopes(Report::Part& part) {
+void slopes(VerifyReport::Part& part) {
   for (const double mu : {0.2, 0.5}) {
     for (const double share : {0.98, 1.02}) {
       const double slope = std::atan(share * mu);
@@ -95,7 +95,7 @@ void slopes(Report::Part& part) {
 }
 
 // A groove presses with more than the hand's force: the threshold is mu / sin A.
-void grooves(Report::Part& part) {
+void grooves(VerifyReport::Part& part) {
   for (const double half_deg : {45.0, 30.0}) {
     const double mu = 0.3, half = half_deg * M_PI / 180, z = kRadius / std::sin(half);
     const Scene groove(phantom::groove(half));
@@ -111,7 +111,7 @@ void grooves(Report::Part& part) {
 }
 
 // Held below the threshold for a minute, with the tremor of a hand.
-void drift(const Verify& verify, const Scene& plane, Report::Part& part) {
+void drift(const Verify& verify, const Scene& plane, VerifyReport::Part& part) {
   const auto proxy = press(plane, 0.5, 0.45, kAbove, kDown);
   const Vec3 began = proxy->position();
   const int ticks = verify.quick ? 10'000 : 60'000;
@@ -124,7 +124,7 @@ void drift(const Verify& verify, const Scene& plane, Report::Part& part) {
 }
 
 // In circles: the energy that friction takes is never negative; without friction it is zero.
-void energy(const Scene& plane, Report::Part& part) {
+void energy(const Scene& plane, VerifyReport::Part& part) {
   for (const double mu : {0.0, 0.3}) {
     const auto proxy = press(plane, mu, mu, kAbove, kDown);
     Vec3 last(0, 0, kDown.z()), felt(0, 0, 1000 * kDeep);
@@ -149,7 +149,7 @@ void energy(const Scene& plane, Report::Part& part) {
   }
 }
 
-void friction(const Verify& verify, Report::Part& part) {
+void friction(const Verify& verify, VerifyReport::Part& part) {
   const Scene plane(phantom::slab());
   stick_and_slip(plane, part);
   slopes(part);

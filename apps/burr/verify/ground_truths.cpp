@@ -98,7 +98,7 @@ struct Worst {
   }
 };
 
-void truths(const Verify& verify, Report::Part& part) {
+void truths(const Verify& verify, VerifyReport::Part& part) {
   const std::vector<double> voxels =
       verify.quick ? std::vector<double>{0.25} : std::vector<double>{0.5, 0.25, 0.125};
   const std::vector<double> radii =

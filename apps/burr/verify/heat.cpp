@@ -24,7 +24,7 @@ std::unique_ptr<volume::Bone> solid(const Vec3& half, double voxel) {
 
 // A constant half watt in the middle of a large block: T = P / (4 pi k R) when it is steady near
 // the source.
-void point_source(const Verify& verify, Report::Part& part) {
+void point_source(const Verify& verify, VerifyReport::Part& part) {
   const double cell = 1e-3, half = 20e-3, seconds = verify.quick ? 400 : 1200;
   const HeatSettings settings{.cell = cell, .longest_step = 1};
   const auto bone = solid(Vec3::Constant(half), cell);
@@ -64,7 +64,7 @@ void point_source(const Verify& verify, Report::Part& part) {
 }
 
 // A heat flux into the end of a long column without losses: 2 q sqrt(t / (pi k rho c)).
-void half_space(Report::Part& part) {
+void half_space(VerifyReport::Part& part) {
   constexpr double kFlux = 2000, kSeconds = 20, kEach = 0.02;
   const double cell = 1e-3;
   const HeatSettings settings{.cell = cell, .longest_step = kEach};
@@ -87,7 +87,7 @@ void half_space(Report::Part& part) {
   part.near("half_space", right, seen, 0.03 * right, "K");
 }
 
-void heat(const Verify& verify, Report::Part& part) {
+void heat(const Verify& verify, VerifyReport::Part& part) {
   point_source(verify, part);
   half_space(part);
   part.near("cem43.47C_60s", 16, thermal::cem43_rate(47), 1e-9, "min");

@@ -66,7 +66,7 @@ Pressed press(tick::ServoSettings servo, double newton) {
 
 // James et al. 2013: bovine cortical bone, resultants of 8 to 11 N on a kerf of 0.7 mm; as specific
 // energies in docs/cutting.md, "Chips".
-void chips(Report::Part& part) {
+void chips(VerifyReport::Part& part) {
   const volume::CuttingForce force = volume::Tissue{}.force;
   const auto energy = [&](double chip) {
     return force.chip_tangential +
@@ -127,7 +127,7 @@ void chips(Report::Part& part) {
        {rate, axis}});
 }
 
-void drag(Report::Part& part) {
+void drag(VerifyReport::Part& part) {
   tick::ServoSettings settings;
   const double mu = volume::Tissue{}.cutting_friction;
   const Vec3 forward = press(settings, 1).force;
@@ -144,7 +144,7 @@ void drag(Report::Part& part) {
   part.at_least("drag.by_chips", 0.3, toothed.force.y() / toothed.force.z(), "of the push");
 }
 
-void spindle(const Verify& verify, Report::Part& part) {
+void spindle(const Verify& verify, VerifyReport::Part& part) {
   tick::ServoSettings settings;
   settings.motor.torque = 2e-3;
   settings.motor.friction = 0;
@@ -176,7 +176,7 @@ void spindle(const Verify& verify, Report::Part& part) {
        {{"speed under load", "push [N]", "of full speed", {theory, measured}}}});
 }
 
-void mechanics(const Verify& verify, Report::Part& part) {
+void mechanics(const Verify& verify, VerifyReport::Part& part) {
   chips(part);
   drag(part);
   spindle(verify, part);

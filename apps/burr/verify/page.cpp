@@ -23,7 +23,7 @@ figure { margin: 1.2em 0 } figcaption, .about { color: #444; max-width: 75em } s
 
 }  // namespace
 
-std::string page(const Report& report) {
+std::string page(const VerifyReport& report) {
   std::string html = kHead;
   html += fmt::format("<h1>burr verify</h1><p>burr {} ({}): {} checks, {} failed.</p>\n",
                       base::version(), base::markup_text(base::build()), report.checks(),
@@ -32,13 +32,13 @@ std::string page(const Report& report) {
       "<p>A check of our method passes if the stated bound holds. A check of a baseline (another "
       "method, for comparison) passes if the baseline does what was predicted, including predicted "
       "failures.</p><ul>\n";
-  for (const Report::Part& part : report.parts())
+  for (const VerifyReport::Part& part : report.parts())
     html += fmt::format("<li><a href=\"#{}\">{}</a>: {} of {} passed, {:.1f} s</li>\n", part.name,
                         base::markup_text(part.title),
                         part.checks.size() - static_cast<std::size_t>(part.failed()),
                         part.checks.size(), part.took_s);
   html += "</ul>\n";
-  for (const Report::Part& part : report.parts()) {
+  for (const VerifyReport::Part& part : report.parts()) {
     html += fmt::format("<h2 id=\"{}\">{}</h2>\n<p class=\"about\">{}</p>\n", part.name,
                         base::markup_text(part.title), base::markup_text(part.about));
     for (const Plot& plot : part.plots)

@@ -9,7 +9,7 @@
 
 namespace burr::app {
 
-[[nodiscard]] std::string page(const Report& report);
+[[nodiscard]] std::string page(const VerifyReport& report);
 
 // One plot as SVG; its axes stand side by side.
 [[nodiscard]] std::string svg(const Plot& plot);

@@ -81,7 +81,7 @@ people::Outcome answered_by_formula(const people::Plan& plan, double threshold) 
   return experiment.outcome();
 }
 
-void show(Report::Part& part, const Ask& ask, const people::Outcome& out) {
+void show(VerifyReport::Part& part, const Ask& ask, const people::Outcome& out) {
   Line dots{"answers, 20 or more a dot", {}, {}, false, true}, found{"found", {}, {}},
       truth{"the observer's own", {}, {}, true};
   double place = 0;
@@ -113,7 +113,7 @@ void show(Report::Part& part, const Ask& ask, const people::Outcome& out) {
          true}}});
 }
 
-void people_part(const Verify& verify, Report::Part& part) {
+void people_part(const Verify& verify, VerifyReport::Part& part) {
   Table table{
       "The scatter is the standard deviation of one run's threshold. The best that is possible is "
       "4.4 % with 300 answers for an observer of slope 3.5, and 11 % with 400 answers for one that "

@@ -139,7 +139,7 @@ Noise noise(Workbench& bench, const surgeon::WorkPlace& place, double r) {
   return out;
 }
 
-void bones(const Verify& verify, Report::Part& part) {
+void bones(const Verify& verify, VerifyReport::Part& part) {
   Series series{"real_bones", {"bone", "tick", "overlap_voxel", "unbalanced_share"}, {}};
   Axes strokes{"a stroke without cutting", "time [s]", "force [N]", {}};
   Table strengths{

@@ -47,29 +47,29 @@ std::string row_of(const std::vector<std::string>& cells) {
 
 }  // namespace
 
-void Report::Part::near(const std::string& what, double expected, double measured, double tolerance,
-                        const std::string& unit) {
+void VerifyReport::Part::near(const std::string& what, double expected, double measured,
+                              double tolerance, const std::string& unit) {
   checks.push_back({name + "." + what, fmt::format("{} +- {}", number(expected), number(tolerance)),
                     measured, unit, std::abs(measured - expected) <= tolerance});
 }
 
-void Report::Part::at_most(const std::string& what, double bound, double measured,
-                           const std::string& unit) {
+void VerifyReport::Part::at_most(const std::string& what, double bound, double measured,
+                                 const std::string& unit) {
   checks.push_back({name + "." + what, "<= " + number(bound), measured, unit, measured <= bound});
 }
 
-void Report::Part::at_least(const std::string& what, double bound, double measured,
-                            const std::string& unit) {
+void VerifyReport::Part::at_least(const std::string& what, double bound, double measured,
+                                  const std::string& unit) {
   checks.push_back({name + "." + what, ">= " + number(bound), measured, unit, measured >= bound});
 }
 
-int Report::Part::failed() const {
+int VerifyReport::Part::failed() const {
   int count = 0;
   for (const Check& check : checks) count += check.pass ? 0 : 1;
   return count;
 }
 
-Report::Part& Report::begin(std::string name, std::string title, std::string about) {
+VerifyReport::Part& VerifyReport::begin(std::string name, std::string title, std::string about) {
   Part part;
   part.name = std::move(name);
   part.title = std::move(title);
@@ -78,24 +78,24 @@ Report::Part& Report::begin(std::string name, std::string title, std::string abo
   return parts_.back();
 }
 
-int Report::failed() const {
+int VerifyReport::failed() const {
   int count = 0;
   for (const Part& part : parts_) count += part.failed();
   return count;
 }
 
-int Report::checks() const {
+int VerifyReport::checks() const {
   std::size_t count = 0;
   for (const Part& part : parts_) count += part.checks.size();
   return static_cast<int>(count);
 }
 
-std::string Report::line(const Check& check) {
+std::string VerifyReport::line(const Check& check) {
   return fmt::format("{:<52} {:>22} {:>12} {:<7} {}", check.name, check.expected,
                      number(check.measured), check.unit, check.pass ? "pass" : "FAIL");
 }
 
-std::string Report::json() const {
+std::string VerifyReport::json() const {
   nlohmann::json out;
   out["checks"] = checks();
   out["failed"] = failed();
@@ -113,7 +113,7 @@ std::string Report::json() const {
   return json_line(out);
 }
 
-std::string Report::markdown() const {
+std::string VerifyReport::markdown() const {
   std::string text =
       "# Validation\n\n"
       "`burr verify --out DIR --data DATA` writes this page; edits made by hand are lost. Each "
@@ -162,7 +162,7 @@ std::string Report::markdown() const {
   return text;
 }
 
-Status Report::write(const std::string& folder, const std::string& html) const {
+Status VerifyReport::write(const std::string& folder, const std::string& html) const {
   std::error_code trouble;
   std::filesystem::create_directories(folder, trouble);
   if (trouble)

@@ -1,7 +1,7 @@
 // apps/burr/verify/report.h - a report: what was expected, what was measured, and the series of
 // data.
 //
-//     Report::Part& part = report.begin("friction", "Friction", "what is asked here");
+//     VerifyReport::Part& part = report.begin("friction", "Friction", "what is asked here");
 //     part.near("stick-slip.threshold", 0.300, measured, 0.003, "");  // one line, one verdict
 //     part.plot({...});  part.table({...});  part.cannot("no data: ../shared/data is absent");
 //
@@ -57,7 +57,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-class Report {
+class VerifyReport {
  public:
   struct Part {
     std::string name, title, about;

@@ -76,7 +76,7 @@ const Vec3 kAir(0, 0, 4 * kMm);
 const Vec3 kPressed(0, 0, kRadius - 1 * kMm);  // 1 mm deep: 1 N
 
 // Readings that no hand can give: NaN and infinity, jumps, stalls, in any order.
-void fuzzed(const Verify& verify, Report::Part& part) {
+void fuzzed(const Verify& verify, VerifyReport::Part& part) {
   const unsigned seed = 20261122;
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0, 1);
@@ -122,7 +122,7 @@ void fuzzed(const Verify& verify, Report::Part& part) {
 }
 
 // In contact at 1 N: an event, and how the force returns after it.
-void in_contact(Report::Part& part) {
+void in_contact(VerifyReport::Part& part) {
   struct Event {
     const char* name;
     std::function<void(Bench&)> happens;
@@ -186,7 +186,7 @@ void in_contact(Report::Part& part) {
 }
 
 // Material is added under the tool: the burr is pushed out, within the limits of the force.
-void growth(Report::Part& part) {
+void growth(VerifyReport::Part& part) {
   tick::ServoSettings settings;
   settings.mode = tick::ToolMode::add;
   Bench bench(settings);
@@ -199,7 +199,7 @@ void growth(Report::Part& part) {
   part.at_most("growth.growth", bench.limit.slew + 1e-6, bench.growth, "N/s");
 }
 
-void safety(const Verify& verify, Report::Part& part) {
+void safety(const Verify& verify, VerifyReport::Part& part) {
   fuzzed(verify, part);
   in_contact(part);
   growth(part);

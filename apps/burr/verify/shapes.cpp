@@ -84,7 +84,7 @@ double place_error(double h) { return std::max(0.01 * kMm, 0.06 * h); }
 std::string at(const char* what, double h) { return fmt::format("{}.{:.0f}um", what, h * 1e6); }
 
 // c_z = a, F = k_t delta, no torque.
-void lying_cylinder(Report::Part& part, double h) {
+void lying_cylinder(VerifyReport::Part& part, double h) {
   const Bone bone(phantom::slab(), h, 9 * kMm);
   const double a = 2 * kMm, delta = 0.5 * kMm;
   const tool::Tool tool = one_part({ShapeKind::cylinder, a - 0.3 * kMm, 0, 3 * kMm, 0.3 * kMm});
@@ -101,7 +101,7 @@ void lying_cylinder(Report::Part& part, double h) {
 }
 
 // N = delta / (1/k_t + l^2/k_r), torque N l, on a rim of radius kFillet.
-void lever_on_rim(Report::Part& part, double h) {
+void lever_on_rim(VerifyReport::Part& part, double h) {
   const Bone bone(phantom::capsule({0, -30 * kMm, 0}, {0, 30 * kMm, 0}, kFillet), h, 7 * kMm);
   const double a = 1.2 * kMm, delta = 0.5 * kMm;
   const tool::Tool tool = one_part({ShapeKind::capsule, 0, 0, 40 * kMm, a});
@@ -122,7 +122,7 @@ void lever_on_rim(Report::Part& part, double h) {
 
 // A box pressed delta into a plane and tilted by beta: flat, with F = k_t delta and torque k_r beta,
 // as long as k_r beta <= k_t delta x_e; beyond that it stands on its edge, where V is least.
-void tilted_box(Report::Part& part, double h) {
+void tilted_box(VerifyReport::Part& part, double h) {
   const Bone bone(phantom::slab(), h, 9 * kMm);
   const double delta = 1 * kMm, rounding = 0.3 * kMm, half = 4.25 * kMm, thick = 0.5 * kMm;
   const tool::Tool tool = one_part({ShapeKind::box, half - rounding, 2 * kMm, thick, rounding});
@@ -160,7 +160,7 @@ void tilted_box(Report::Part& part, double h) {
 
 // A disc of radius R and thickness t, turned in a slot of width w:
 //     2 ((R - rho) sin psi + (t/2 - rho) cos psi + rho) = w
-void disc_in_slot(Report::Part& part, double h) {
+void disc_in_slot(VerifyReport::Part& part, double h) {
   const double w = 1.2 * kMm, radius = 4 * kMm, thick = 1 * kMm, rho = 0.3 * kMm;
   const auto bone_depth = [w](const Vec3& p) { return std::abs(p.x()) - w / 2; };
   const Bone bone(bone_depth, h, 7 * kMm);
@@ -201,7 +201,7 @@ phantom::Depth hole(double b, double thick) {
 // A peg of radius a in a hole of radius b and length D, turned until it jams:
 //     (a + f) + (D/2 - f) sin A = (b + f) cos A
 // Beyond that a pure couple k_r (beta - A), of two forces s = (D - 2 f) cos A + 2 (b + f) sin A apart.
-void peg_in_hole(Report::Part& part, double h) {
+void peg_in_hole(VerifyReport::Part& part, double h) {
   const double a = 1.5 * kMm, b = 1.65 * kMm, deep = 6 * kMm, f = kFillet;
   const Bone bone(hole(b, deep), h, 7 * kMm);
   const tool::Tool tool = one_part({ShapeKind::cylinder, a - 0.3 * kMm, 0, 6 * kMm, 0.3 * kMm});
@@ -233,7 +233,7 @@ void peg_in_hole(Report::Part& part, double h) {
 //     (b + f - c_x) cos A - (-f - c_z) sin A = a + f,   c_x = -(b - r)
 // where c_z makes V least. The load of the shaft is N_2 = torque / lever, that of the head
 // N_1 = F_x + N_2 cos A.
-void burr_in_canal(Report::Part& part, double h) {
+void burr_in_canal(VerifyReport::Part& part, double h) {
   const double r = 1.8 * kMm, a = 1 * kMm, b = 2.2 * kMm, f = kFillet;
   const Bone bone(hole(b, 0), h, 12 * kMm);
   tool::Tool tool = one_part({ShapeKind::ball, 0, 0, 0, r});
@@ -284,7 +284,7 @@ void burr_in_canal(Report::Part& part, double h) {
 }
 
 // Force and torque are the sums of the contacts'; on a loop of poses the hand's work comes back.
-void wrench_and_energy(Report::Part& part, double h) {
+void wrench_and_energy(VerifyReport::Part& part, double h) {
   const Bone bone(phantom::groove(M_PI / 5), h, 9 * kMm);
   tool::Burr burr;
   burr.radius = 1.5 * kMm;
@@ -330,7 +330,7 @@ void wrench_and_energy(Report::Part& part, double h) {
 
 // A box on a slope under a load straight down: it slides if and only if tan > mu. By steps of the slope:
 // the steepest on which it holds, and the least on which it slides, over mu.
-void box_on_slope(Report::Part& part, double h) {
+void box_on_slope(VerifyReport::Part& part, double h) {
   const tool::Tool box = one_part({ShapeKind::box, 2.2 * kMm, 1.7 * kMm, 0.7 * kMm, 0.3 * kMm});
   for (const double mu : {0.2, 0.5})
     for (const double share : {0.98, 1.02}) {
@@ -358,7 +358,7 @@ void box_on_slope(Report::Part& part, double h) {
 
 // A disc of radius R pressed flat with N and spun about its normal: M = 2 mu N R / 3 where it begins to
 // slide and while it slides.
-void spun_disc(Report::Part& part, double h) {
+void spun_disc(VerifyReport::Part& part, double h) {
   const Bone bone(phantom::slab(), h, 9 * kMm);
   const double mu = 0.3, slides = 0.27, delta = 1 * kMm, thick = 1 * kMm;
   for (const double radius : {2 * kMm, 3.5 * kMm}) {
@@ -406,7 +406,7 @@ tool::Tool chisel_and_wheel() {
 }
 
 // A plate of 0.6 mm: the tool stays on its side.
-void thin_plate(Report::Part& part, const char* name, const tool::Tool& tool, int ticks) {
+void thin_plate(VerifyReport::Part& part, const char* name, const tool::Tool& tool, int ticks) {
   const double h = 0.25 * kMm;
   const Vec3 up = Vec3(0.2, 0.3, 1).normalized();
   const Bone bone(phantom::plate(0.6 * kMm, up), h, 16 * kMm);  // wider than the hand goes
@@ -434,10 +434,10 @@ void thin_plate(Report::Part& part, const char* name, const tool::Tool& tool, in
   part.at_least(at((scene + ".ticks-in-contact").c_str(), h), 0.25 * ticks, touched, "");
 }
 
-void shapes(const Verify& verify, Report::Part& part) {
+void shapes(const Verify& verify, VerifyReport::Part& part) {
   for (const double h : verify.quick ? std::vector<double>{0.25 * kMm}
                                      : std::vector<double>{0.25 * kMm, 0.125 * kMm}) {
-    const std::function<void(Report::Part&, double)> all[] = {
+    const std::function<void(VerifyReport::Part&, double)> all[] = {
         lying_cylinder, lever_on_rim, tilted_box,        disc_in_slot, peg_in_hole,
         burr_in_canal,  box_on_slope, wrench_and_energy, spun_disc};
     for (const auto& one : all) {

@@ -23,7 +23,7 @@ haptics::Controller plain(double stiffness, double damping) {
   return haptics::wall({.stiffness = stiffness, .damping = damping});
 }
 
-void borders(const Verify& verify, Report::Part& part) {
+void borders(const Verify& verify, VerifyReport::Part& part) {
   struct Case {
     double b, B;
   };
@@ -88,7 +88,7 @@ void borders(const Verify& verify, Report::Part& part) {
 
 // Devices with the stiffness that a public library allows them (docs/safety.md, "Devices and
 // hands"); masses of 0.1 kg and b = 0.5 N s/m where no figure is known.
-void devices(Report::Part& part) {
+void devices(VerifyReport::Part& part) {
   struct Device {
     const char* name;
     double mass, friction, step, stiffness, damping;
@@ -196,7 +196,7 @@ Lasting last(const Pressing& one, double seconds) {
   return out;
 }
 
-void lasting(const Verify& verify, Report::Part& part) {
+void lasting(const Verify& verify, VerifyReport::Part& part) {
   using tick::ToolMode;
   const double seconds = verify.quick ? 6 : 30;
   const phantom::Depth flat = phantom::slab(), groove = phantom::groove(M_PI / 4);
@@ -245,7 +245,7 @@ void lasting(const Verify& verify, Report::Part& part) {
   part.table(std::move(table));
 }
 
-void stability(const Verify& verify, Report::Part& part) {
+void stability(const Verify& verify, VerifyReport::Part& part) {
   borders(verify, part);
   devices(part);
   lasting(verify, part);

@@ -81,7 +81,7 @@ std::vector<Row> drag(const Case& one, Method method, const volume::IsoVertices&
 // True while the hand slides at full speed.
 bool slides(const Row& row) { return row.t > 2.5 && row.t < 3.4; }
 
-void cases(const Verify&, Report::Part& part) {
+void cases(const Verify&, VerifyReport::Part& part) {
   NoProgress quiet;
   const phantom::Depth cube = phantom::box(Vec3::Constant(kSide));
   const Vec3 half = Vec3::Constant(std::ceil((kSide + 5 * kMm) / kVoxel) * kVoxel);

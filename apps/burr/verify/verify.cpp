@@ -41,7 +41,7 @@ Status run(const Options& options) {
   std::vector<Known> parts = known();
   std::sort(parts.begin(), parts.end(),
             [](const Known& a, const Known& b) { return a.place < b.place; });
-  Report report;
+  VerifyReport report;
   // report a folder that cannot be written now, not after minutes
   if (!options.out.empty())
     if (Status written = report.write(options.out, page(report)); !written) return written;
@@ -52,11 +52,11 @@ Status run(const Options& options) {
     if (interrupted()) break;
     progress().report(0, one.name);
     const auto start = std::chrono::steady_clock::now();
-    Report::Part& part = report.begin(one.name, one.title, one.about);
+    VerifyReport::Part& part = report.begin(one.name, one.title, one.about);
     one.work({options.quick, options.data}, part);
     part.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (options.json) continue;
-    for (const Check& check : part.checks) fmt::print("{}\n", Report::line(check));
+    for (const Check& check : part.checks) fmt::print("{}\n", VerifyReport::line(check));
     for (const std::string& sentence : part.left_out) fmt::print("not checked: {}\n", sentence);
     std::fflush(stdout);
   }

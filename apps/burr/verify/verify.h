@@ -1,7 +1,7 @@
 // apps/burr/verify/verify.h - a part of `burr verify`; one file each, which registers itself.
 //
 //     namespace {
-//     void friction(const Verify& verify, Report::Part& part) { ... part.near(...); }
+//     void friction(const Verify& verify, VerifyReport::Part& part) { ... part.near(...); }
 //     const VerifyPart part{40, "friction", "Friction", "What is asked here ...", friction};
 //     }
 #pragma once
@@ -16,7 +16,7 @@ struct Verify {
 };
 
 struct VerifyPart {
-  using Work = void (*)(const Verify&, Report::Part&);
+  using Work = void (*)(const Verify&, VerifyReport::Part&);
   VerifyPart(int place, const char* name, const char* title, const char* about, Work work);
 };
 

@@ -23,6 +23,12 @@ void append(void* to, void* bytes, int count) {
 
 }  // namespace
 
+std::string jpeg_of(const Image& image, int quality) {
+  std::string out;
+  stbi_write_jpg_to_func(append, &out, image.width, image.height, 3, image.rgb.data(), quality);
+  return out;
+}
+
 Result<Image> render_image(const Scene& scene, int width, int height) {
   auto renderer = Renderer::offscreen();
   if (!renderer) return renderer.error();

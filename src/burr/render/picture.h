@@ -33,6 +33,9 @@ class Renderer;
 [[nodiscard]] Status render_png(const Scene& scene, int width, int height,
                                 const std::filesystem::path& path);
 
+// The bytes of a JPEG; quality: 1..100. Thread: any.
+[[nodiscard]] std::string jpeg_of(const Image& image, int quality);
+
 // A film as a sequence of numbered pictures, for ffmpeg -i frame_%06d.png. The bone stays on the
 // GPU between frames, so that only changes are sent.
 class Film {

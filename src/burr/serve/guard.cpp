@@ -77,6 +77,16 @@ std::optional<Response> refused(const Request& request, const Guard& guard) {
     return std::nullopt;
   }
   const std::string bearer = "Bearer ", given = request.field("authorization");
+  if (request.path == kStationPath) {
+    if (guard.station_token.empty())
+      return refusal(404, "this server takes no stations; start it with --live");
+    if (!given.starts_with(bearer) || !same(given.substr(bearer.size()), guard.station_token))
+      return refusal(401, "the token of the stations is missing or wrong");
+    if (request.method != "POST") return refusal(405, "a station posts");
+    if (request.field("content-type") != "image/jpeg")
+      return refusal(415, "a station posts pictures");
+    return std::nullopt;
+  }
   if (!given.starts_with(bearer) || !same(given.substr(bearer.size()), guard.token))
     return refusal(401, "the token is missing or wrong; open the address that burr printed");
   if (request.method == "POST" && !request.field("content-type").starts_with("application/json"))
@@ -87,7 +97,8 @@ std::optional<Response> refused(const Request& request, const Guard& guard) {
 void add_fences(Response& response) {
   const std::pair<const char*, const char*> fences[] = {
       {"Content-Security-Policy",
-       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+       "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src "
+       "'self'; img-src 'self' blob: data:; "
        "connect-src 'self'; "
        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
       {"X-Content-Type-Options", "nosniff"},

@@ -5,7 +5,8 @@
 //     token       everything under /api/ needs "Authorization: Bearer TOKEN". The page takes it from the part of its
 //                 address after '#', which no browser sends, and keeps it for its tab. There is no cookie: cookies are
 //                 shared by all ports of a computer, so another user's server on it could collect them
-//     POST        must bring JSON, so no form of another page can make one
+//     stations    have a token of their own, with which they post pictures to /api/station and can read nothing
+//     POST        must bring JSON, of a station a picture, so no form of another page can make one
 //
 // Parts of the page itself need no token: they hold no data. docs/security.md lists threats and what meets them.
 // Thread: any.
@@ -20,10 +21,14 @@
 
 namespace burr::serve {
 
+inline constexpr const char* kStationPath = "/api/station";
+
 struct Guard {
   std::vector<std::string> hosts;  // "127.0.0.1:8231", "localhost:8231"
   bool tls = false;
   std::string token;
+  // What stations show themselves with (POST /api/station), good for nothing else. Empty: there are none.
+  std::string station_token = {};
 };
 
 // 256 bits from the system, as 64 digits. Error: the system gives none.

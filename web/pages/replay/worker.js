@@ -1,6 +1,6 @@
 // The worker of the page: reads a recording, and makes bone and row of any moment. The file stays in this worker.
 //
-//     page -> worker   open {compiled, file, work}, seek {time}
+//     page -> worker   open {compiled, file, bone, work}, seek {time}; bone: of a recording that holds none, as bytes
 //     worker -> page   here, opened {seconds, rate, voxel, tissues}, skin {patches}, skin_done, soft {parts}, ready,
 //                      moment {time, row, patches}, refused {why, parts}, broken {text, why, parts}
 //
@@ -25,13 +25,14 @@ function tell(message) {
   self.postMessage({...message, work});
 }
 
-async function open({compiled, file, work: mine}) {
+async function open({compiled, file, bone, work: mine}) {
   work = mine;
   burr = skin = null;  // an older file gives its memory back
   const [fresh, bytes] = await Promise.all([start(compiled), file.arrayBuffer()]);
   if (work !== mine) return;  // another one was chosen meanwhile
   burr = fresh;
   burr.module.FS.writeFile('/burr.mcap', new Uint8Array(bytes), {canOwn: true});
+  if (bone) burr.module.FS.writeFile('/burr.bone', bone, {canOwn: true});
   if (burr.core_open() === 0) {
     tell({kind: 'refused', why: 'not_opened', parts: [file.name, burr.text(burr.core_why()).replace('/burr.mcap: ', '')]});
     return;

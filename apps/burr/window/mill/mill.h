@@ -34,6 +34,7 @@
 #include "window/mill/hand_plane.h"
 #include "window/mill/hud.h"
 #include "window/mill/injury.h"
+#include "window/mill/instructor_notes.h"
 #include "window/mill/measuring.h"
 #include "window/mill/menu_panel.h"
 #include "window/mill/mirror_mode.h"
@@ -222,6 +223,18 @@ class Mill {
   // The axes of the hand stay as they are meanwhile: a turned view must not turn the piece.
   [[nodiscard]] bool carries_piece() const { return pieces_ && pieces_->carried(); }
   [[nodiscard]] std::optional<HudState::Nearest> nearest_spared();
+
+  // ---- mill_station.cpp
+  void talk();  // after a picture
+  struct Shown {
+    std::uint64_t number = 0;  // of the picture that was offered
+    render::Camera camera;
+    int width = 1, height = 1;
+  };
+  std::array<Shown, 64> shown_;  // the last ones: a mark of the instructor is in one of them
+  InstructorNotes notes_;
+  bool was_watched_ = false;
+  std::string station_trouble_;  // the last one
 
   // ---- mill_diary.cpp
   void keep_diary();

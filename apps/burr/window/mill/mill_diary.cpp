@@ -30,6 +30,7 @@ void Mill::keep_diary() {
   if (leaf_ == Leaf::task && panels_ && options_.work_case) sight.helps.insert("task");
   if (leaf_ == Leaf::steps && panels_ && steps_offered()) sight.helps.insert("steps");
   if (panels_ && (leaf_ == Leaf::structures || !pins_.empty())) sight.helps.insert("names");
+  if (!notes_.empty()) sight.helps.insert("instructor");
   // the user is warned by the colour and the mark at the figure, or by the tone
   const bool seen = panels_ && options_.allowed.distance;
   const bool heard = options_.allowed.tone_below >= kNear && options_.loudspeaker != nullptr &&

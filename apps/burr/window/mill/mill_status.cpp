@@ -271,6 +271,7 @@ void Mill::panels() {
     if (const auto pressed = draw_toolbar(ui, bar_state())) act(*pressed);
     if (!page_open()) draw_name();
   }
+  notes_.draw(ui, scene_.camera, column());
   pages();
 }
 

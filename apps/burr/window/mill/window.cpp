@@ -124,9 +124,11 @@ Status Mill::frame(workshop::LiveSurface& live) {
   // the headset has priority; the window is then drawn about thirty times a second
   if (!headset_.shows() || drawing - window_drawn_ > std::chrono::milliseconds(30)) {
     window_drawn_ = drawing;
-    const bool says = panels_ || page_open() || measuring_.on() || pointer_.pad_leads();
+    const bool says =
+        panels_ || page_open() || measuring_.on() || pointer_.pad_leads() || !notes_.empty();
     shown = desk_.show(scene_, says ? [this] { panels(); } : std::function<void()>());
   }
+  talk();
   headset_.end(scene_);
   live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
              desk_.renderer().figures().redrawn);

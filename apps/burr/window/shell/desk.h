@@ -21,6 +21,7 @@
 #include "window/shell/printed_keys.h"
 #include "window/shell/settings.h"
 #include "window/shell/ui.h"
+#include "window/station/station_link.h"
 
 namespace burr::app {
 
@@ -45,8 +46,11 @@ class Desk {
   std::string told;  // start page: a line that is no error, until it is clicked away
   // What a page that was left still has under way, looked at in each picture; true: it has ended.
   std::vector<std::function<bool()>> under_way;
-  std::string store;        // of learners, as the user named it; empty: the usual one
-  Status lost = fine();     // what could not be recorded; the program ends with it
+  std::string store;     // of learners, as the user named it; empty: the usual one
+  Status lost = fine();  // what could not be recorded; the program ends with it
+  // Shows the milling page on the instructor's page; nullptr: nobody asked for it. And whose sessions these are.
+  std::unique_ptr<StationLink> station;
+  std::string station_learner;
   std::string status_text;  // milling page: warning, last note; review: what was met
   Gamepads pads;            // input other than the mouse
   Pedals pedals;
