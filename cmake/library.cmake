@@ -99,6 +99,10 @@ burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
 set(serve_sources ${rest})
 list(FILTER serve_sources INCLUDE REGEX "/src/burr/serve/")
 list(REMOVE_ITEM rest ${serve_sources})
+# So is what asks other servers.
+set(lrs_sources ${rest})
+list(FILTER lrs_sources INCLUDE REGEX "/src/burr/(http|lrs)/")
+list(REMOVE_ITEM rest ${lrs_sources})
 # The store of learners is for the program alone: who cuts bone with libburr.so loads no database.
 set(school_sources ${rest})
 list(FILTER school_sources INCLUDE REGEX "/src/burr/school/")
@@ -144,6 +148,8 @@ target_link_libraries(burr_serve PUBLIC burr PRIVATE burr_options fmt::fmt nlohm
 add_library(burr_school STATIC ${school_sources})
 target_link_libraries(burr_school PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json
   PkgConfig::SQLITE PkgConfig::POSTGRES)
+add_library(burr_lrs STATIC ${lrs_sources})
+target_link_libraries(burr_lrs PUBLIC burr_school PRIVATE burr burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
 burr_common_headers(burr_school <fmt/format.h>)
 
 # what the built-in bones are shaped by (program.cmake)

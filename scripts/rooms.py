@@ -42,6 +42,8 @@ ALLOWED = {
     "scoring": "metrics record rt scenario volume",
     "school": "people record",
     "serve": "",
+    "http": "",
+    "lrs": "school http",
     "workshop": "sim tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
