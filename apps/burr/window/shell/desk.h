@@ -45,7 +45,9 @@ class Desk {
   std::string told;  // start page: a line that is no error, until it is clicked away
   // What a page that was left still has under way, looked at in each picture; true: it has ended.
   std::vector<std::function<bool()>> under_way;
-  std::string store;        // of learners, as the user named it; empty: the usual one
+  std::string store;  // of learners, as the user named it; empty: the usual one
+  // After each session: how long it was [s], and whether the work was declared done.
+  std::function<void(double, bool)> session_over;
   Status lost = fine();     // what could not be recorded; the program ends with it
   std::string status_text;  // milling page: warning, last note; review: what was met
   Gamepads pads;            // input other than the mouse
