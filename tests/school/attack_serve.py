@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Attacks a `burr serve` of its own for a given time, with variations from a seed, and looks after each what came of it.
 
-    scripts/attack_serve.py BURR [--seconds 60] [--seed 1] [--rate 40]      BURR: the program; rate: attacks a second, at most
+    tests/school/attack_serve.py BURR [--seconds 60] [--seed 1] [--rate 40]      BURR: the program; rate: attacks a second, at most
 
 What must hold after each attack: the server lives and answers its owner; nothing but parts of the page comes without
 the token; no answer holds a line of a file from elsewhere, or a person's name; every answer forbids what it should
