@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "burr/device/simulated_hand.h"
+#include "burr/lrs/launch.h"
 #include "burr/record/diary.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
@@ -57,7 +58,7 @@ constexpr double kHeadlessSeconds = 20;
 
 struct Options {
   WorkOptions work;
-  std::string out, screenshot, store, live, live_token, station;
+  std::string out, screenshot, store, live, live_token, station, cmi5;
   double seconds = 0;
   bool headless = false, no_sound = false, xr = false, force = false;
 };
@@ -332,8 +333,27 @@ Status show_to_instructor(Desk& desk, const Options& options) {
   return fine();
 }
 
+// What a learning management system is told of the sessions of this run.
+struct Told {
+  double seconds = 0;
+  bool done = false;  // of one of them
+};
+
+// Runs `work` between what cmi5 wants first and last. A run that failed was not completed.
+template <class Work>
+Status launched(const Options& options, Told& told, Work work) {
+  if (options.cmi5.empty()) return work();
+  if (options.work.volume.source.empty())
+    return error(Trouble::usage, "--cmi5: name the case too, for example: burr run temporal-bone");
+  auto launch = lrs::Launch::begin(options.cmi5);
+  if (!launch) return launch.error();
+  const Status worked = work();
+  const Status ended = (*launch)->end(told.seconds, worked.ok() && told.done);
+  return worked ? ended : worked;
+}
+
 // The start page, or sessions on what was named.
-Status run_in_window(Options options) {
+Status run_in_window(Options options, Told& told) {
   const std::filesystem::path folder = options.out;
   if (!folder.empty()) {
     Status made = make_folder(folder);
@@ -344,6 +364,10 @@ Status run_in_window(Options options) {
   if (!desk) return desk.error();
   (*desk)->store = options.store;
   if (const Status shown = show_to_instructor(**desk, options); !shown) return shown;
+  (*desk)->session_over = [&told](double seconds, bool done) {
+    told.seconds += seconds;
+    told.done = told.done || done;
+  };
   enter_waiting(**desk);
   (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
   if (options.work.volume.source.empty())
@@ -362,7 +386,8 @@ Status run(Options options) {
       check_outputs({options.work.volume.source}, {{"--screenshot", options.screenshot, {".png"}}});
   if (!possible) return possible;
   const bool windowless = options.headless || !display_there();
-  if (!windowless) return run_in_window(std::move(options));
+  Told told;
+  if (!windowless) return launched(options, told, [&] { return run_in_window(options, told); });
   for (const auto& [option, given] : {std::pair{"--device", &options.work.hand.device},
                                       {"--suction", &options.work.suction},
                                       {"--publish-as", &options.work.told_as}})
@@ -375,7 +400,12 @@ Status run(Options options) {
     fmt::print(stderr, "no display found: burr mills by itself, as with --headless\n");
   options.work.seconds = options.seconds;
   if (Status taken = take_case(options.work); !taken) return taken;
-  return run_headless(options);
+  // nobody is there to declare the work done: it is, where nothing stopped it
+  return launched(options, told, [&] {
+    told.seconds = options.seconds > 0 ? options.seconds : kHeadlessSeconds;
+    told.done = true;
+    return run_headless(options);
+  });
 }
 
 void add(CLI::App& app, Todo& todo) {
@@ -443,6 +473,9 @@ void add(CLI::App& app, Todo& todo) {
                    "the name of this station there (default: the computer's)")
       ->needs(live);
   live->needs("--live-token-file");
+  command->add_option("--cmi5", options->cmi5,
+                      "the address with which a learning management system starts a unit "
+                      "(cmi5), in quotes; it is told what docs/xapi.md says");
   add_bone_option(*command, options->work.bone);
   add_volume_options(*command, options->work.volume);
   command->callback([options, touch, &todo] {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <map>
@@ -34,6 +35,7 @@
 #include "report/marked.h"
 #include "report/report_page.h"
 #include "school/session_of.h"
+#include "school/xapi.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -309,6 +311,8 @@ Status run_take_in(const Options& options) {
   say_others(in);
   fmt::print("{} came into the store, {} still waiting\n", counted(in.taken, "session"), in.left);
   print_json(options, {{"taken", in.taken}, {"left", in.left}});
+  std::fflush(stdout);
+  send_what_is_due(**store);
   return fine();
 }
 
@@ -606,6 +610,7 @@ void add(CLI::App& app, Todo& todo) {
   add_people(*command, todo);
   add_sessions(*command, todo);
   add_cohort(*command, todo);
+  add_xapi(*command, todo);
   auto options = std::make_shared<Options>();
   sub(*command, "audit", "who did what, and when", options, todo, run_audit);
 }

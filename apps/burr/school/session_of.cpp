@@ -11,6 +11,7 @@
 #include "burr/base/version.h"
 #include "burr/record/rename_and_sync.h"
 #include "burr/school/forget.h"
+#include "burr/school/statements.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
 #include "burr/workshop/allowed.h"
@@ -136,6 +137,11 @@ school::SessionRecord record_of(const Scored& scored) {
     if (total->items > 0) out.scores.push_back(score_of(scored, part, *total));
   out.metrics.push_back({"removed_share_of_target", "1", scored.score.worked});
   out.metrics.push_back({"moved_pieces", "1", static_cast<double>(scored.pieces.size())});
+  const auto& steps = scored.judged.lesson.steps;
+  for (const scoring::DoneStep& done : scored.score.shown.steps)
+    if (done.number > 0 && done.number <= steps.size())
+      out.metrics.push_back(
+          {std::string(school::kStepDone) + steps[done.number - 1].id, "s", done.t});
   for (const auto& [item, mark] : recorded_self_marks(player, rubric))
     out.self_marks.push_back({item, word_of(mark)});
   return out;

@@ -13,6 +13,7 @@
 #include "burr/base/printable.h"
 #include "burr/school/pending.h"
 #include "burr/school/sessions.h"
+#include "burr/school/statements.h"
 #include "burr/school/uuid.h"
 
 namespace burr::school {
@@ -65,19 +66,9 @@ bool names_learner(const Json& statement, const std::string& learner) {
   return account != actor->end() && account->is_object() && account->value("name", "") == learner;
 }
 
-// A statement that was sent is taken back by another one, which names nobody.
-Json voiding(const Json& sent, const std::string& id) {
-  const Json account = {{"homePage", sent["actor"]["account"].value("homePage", "")},
-                        {"name", "burr"}};
-  return {{"id", uuid_of(id, "voided")},
-          {"actor", {{"objectType", "Agent"}, {"account", account}}},
-          {"verb", {{"id", "http://adlnet.gov/expapi/verbs/voided"}}},
-          {"object", {{"objectType", "StatementRef"}, {"id", id}}}};
-}
-
 Status void_statements(Store& store, const std::string& learner, Forgotten& done) {
   Database& in = store.database();
-  const auto all = in.rows("SELECT id, statement_json, state FROM outbox");
+  const auto all = in.rows("SELECT id, statement_json, state, tries FROM outbox");
   if (!all) return all.error();
   for (const Row& row : *all) {
     if (!is_about(text(row[1]), learner)) continue;
@@ -86,12 +77,13 @@ Status void_statements(Store& store, const std::string& learner, Forgotten& done
     const std::string id = text(row[0]);
     if (const auto gone = in.run("DELETE FROM outbox WHERE id = $1", {id}); !gone)
       return gone.error();
-    if (!read || text(row[2]) != "sent") continue;
-    const Json back = voiding(statement, id);
+    // one that was tried may have arrived, though nobody heard of it
+    if (!read || (text(row[2]) != "sent" && whole(row[3]) == 0)) continue;
+    const Statement back = voiding(id, statement["actor"]["account"].value("homePage", ""));
     const auto put = in.run(
         "INSERT INTO outbox (id, statement_json, state, tries, next_ms) "
         "VALUES ($1, $2, 'waiting', 0, 0) ON CONFLICT DO NOTHING",
-        {back["id"].get<std::string>(), back.dump()});
+        {back.id, back.json});
     if (!put) return put.error();
     ++done.voided;
   }

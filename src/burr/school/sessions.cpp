@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "burr/school/outbox.h"
 
 namespace burr::school {
 namespace {
@@ -122,6 +123,8 @@ Result<Entered> enter(Store& store, const SessionRecord& record) {
     entered.scores += *made ? 1 : 0;
   }
   if (const Status done = insert_rest(to, record, id); !done) return done.error();
+  if (entered.session)  // a session that is scored anew says nothing anew
+    if (const Status queued = queue_session(store, record); !queued) return queued.error();
   if (entered.session || entered.scores > 0)
     if (const Status noted = store.note("session entered", id, Store::By::computer); !noted)
       return noted.error();

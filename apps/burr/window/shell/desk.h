@@ -51,6 +51,8 @@ class Desk {
   // Shows the milling page on the instructor's page; nullptr: nobody asked for it. And whose sessions these are.
   std::unique_ptr<StationLink> station;
   std::string station_learner;
+  // After each session: how long it was [s], and whether the work was declared done.
+  std::function<void(double, bool)> session_over;
   std::string status_text;  // milling page: warning, last note; review: what was met
   Gamepads pads;            // input other than the mouse
   Pedals pedals;

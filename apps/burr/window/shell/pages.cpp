@@ -79,7 +79,10 @@ Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& wi
     if (!loudspeaker->trouble().empty()) fmt::print(stderr, "{}\n", loudspeaker->trouble());
     with.loudspeaker = loudspeaker.get();
   }
-  return mill(desk, *ready.session, ready.hands, *ready.worker, ready.scene, with);
+  auto left = mill(desk, *ready.session, ready.hands, *ready.worker, ready.scene, with);
+  if (desk.session_over)
+    desk.session_over(ready.session->outcome().seconds, left && *left == Closed::done);
+  return left;
 }
 
 Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options, bool embed,
