@@ -1,5 +1,6 @@
 // The instructor's page: what the store says, as tables and one kind of chart. Texts of people enter the page as text
 // nodes only, never as markup. The token comes in the part of the address after '#' and stays in this tab.
+import { ratingViews } from "./rating.mjs";
 import { words } from "./words.mjs";
 
 const needed = 5;  // sessions without guidance before a figure means something
@@ -52,10 +53,12 @@ function takeToken() {
   sessionStorage.setItem("burr-token", decodeURIComponent(found[1]));
   history.replaceState(null, "", location.pathname + "#/");
 }
-async function ask(path) {
+async function ask(path, body) {
   let answer;
+  const headers = { Authorization: "Bearer " + (sessionStorage.getItem("burr-token") ?? "") };
+  if (body !== undefined) headers["Content-Type"] = "application/json";
   try {
-    answer = await fetch("/api/" + path, { headers: { Authorization: "Bearer " + (sessionStorage.getItem("burr-token") ?? "") } });
+    answer = await fetch("/api/" + path, body === undefined ? { headers } : { method: "POST", headers, body: JSON.stringify(body) });
   } catch {
     throw new Error(say("gone"));
   }
@@ -245,7 +248,16 @@ async function download() {
 
 // ---- the frame
 
-const views = { "": overview, cohort, learner, session, compare, audit };
+// A sentence in the line of state; trouble: an Error, or null.
+function tell(trouble, text = "") {
+  if (trouble) return wrong(trouble);
+  const state = document.getElementById("state");
+  state.className = "";
+  state.textContent = text;
+}
+
+const marking = ratingViews({ words, say, textOf, time, number, el, link, to, table, facts, ask, post: ask, query, tell });
+const views = { "": overview, cohort, learner, session, compare, audit, ...marking };
 
 function frame() {
   document.documentElement.lang = language;
@@ -257,7 +269,8 @@ function frame() {
   const entry = (path, key) => el("a", { href: "#" + path, "aria-current": here === path ? "page" : null }, say(key));
   const csv = el("a", { href: "#" + here }, say("csv"));
   csv.addEventListener("click", event => { event.preventDefault(); download().catch(wrong); });
-  document.getElementById("nav").replaceChildren(entry("/", "overview"), entry("/audit", "audit"), csv);
+  document.getElementById("nav").replaceChildren(entry("/", "overview"), entry("/rate", "rate"), entry("/agreement", "agreement_title"), entry("/standards", "standards"),
+    entry("/audit", "audit"), csv);
 }
 function wrong(trouble) {
   const state = document.getElementById("state");

@@ -17,6 +17,7 @@
 #include "burr/serve/http_server.h"
 #include "commands/command.h"
 #include "serve/page_files.h"
+#include "serve/rating_api.h"
 #include "serve/school_api.h"
 
 namespace burr::app {
@@ -86,11 +87,14 @@ Status run(const Options& options) {
   serve::Guard guard;
   guard.token = *token;
   guard.tls = !options.door.certificate.empty();
+  RatingDesk desk(**store);
   serve::Door door = options.door;
   door.port = static_cast<unsigned short>(options.port);
   auto server = serve::HttpServer::open(door, [&](const serve::Request& request) {
     if (auto refusal = serve::refused(request, guard)) return *refusal;
-    return request.path.starts_with("/api/") ? answer_of_school(**store, request) : page(request);
+    if (!request.path.starts_with("/api/")) return page(request);
+    if (auto marked = desk.answer(request)) return std::move(*marked);
+    return answer_of_school(**store, request);
   });
   if (!server) return server.error();
   guard.hosts = hosts_of(options, (*server)->port());
