@@ -81,10 +81,10 @@ Status check_marks(Store& store, const Marking& marking) {
 
 Result<std::vector<RubricRow>> rubrics(Store& store) {
   const auto found = store.database().rows(
-      "SELECT rubric.hash, rubric.name, rubric.text, rubric.version, rubric.calibrated, "
-      "count(DISTINCT score.session_id) FROM rubric JOIN score ON score.rubric_hash = rubric.hash "
-      "GROUP BY rubric.hash, rubric.name, rubric.text, rubric.version, rubric.calibrated "
-      "ORDER BY max(score.made_ms) DESC, rubric.hash");
+      "SELECT rubric.hash, rubric.name, rubric.text, rubric.version, rubric.calibrated, used.n "
+      "FROM rubric JOIN (SELECT rubric_hash, count(DISTINCT session_id) AS n, max(made_ms) AS last "
+      "FROM score GROUP BY rubric_hash) AS used ON used.rubric_hash = rubric.hash "
+      "ORDER BY used.last DESC, rubric.hash");
   if (!found) return found.error();
   std::vector<RubricRow> all;
   for (const Row& row : *found)
