@@ -135,18 +135,17 @@ Agreement agreement(const std::vector<std::vector<Pair>>& products, std::uint64_
   out.kappa = counts.kappa();
   out.ac1 = counts.ac1();
   out.prevalence_index = std::abs(counts.both - counts.neither) / counts.all();
-  const auto drawn = [&](people::RandomStream& random) {
+  // both figures of the same samples
+  std::vector<double> shares;
+  out.kappa_95 = resampled(kDraws, seed, [&](people::RandomStream& random) {
     Counts again;
     for (std::size_t n = 0; n < of_products.size(); ++n)
       again.add(of_products[static_cast<std::size_t>(random.below(out.products))]);
-    return again;
-  };
-  out.kappa_95 =
-      resampled(kDraws, seed, [&](people::RandomStream& random) { return drawn(random).kappa(); });
-  out.agreement_95 =
-      resampled(kDraws, seed, [&](people::RandomStream& random) -> std::optional<double> {
-        return drawn(random).agreement();
-      });
+    shares.push_back(again.agreement());
+    return again.kappa();
+  });
+  std::sort(shares.begin(), shares.end());
+  out.agreement_95 = {quantile(shares, 0.025), quantile(shares, 0.975)};
   return out;
 }
 
