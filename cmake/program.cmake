@@ -27,7 +27,7 @@ if(BURR_APP)
 
   # ... and so does the instructor's page
   set(BURR_PAGE_FILES "")
-  foreach(file index.html school.css school.mjs live.mjs replay.mjs words.mjs)
+  foreach(file index.html school.css school.mjs live.mjs rating.mjs replay.mjs words.mjs rating_words.mjs)
     set(path ${PROJECT_SOURCE_DIR}/web/school/${file})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
     get_filename_component(ending ${file} LAST_EXT)

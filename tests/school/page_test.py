@@ -6,6 +6,7 @@
 With BURR_AXE=axe.min.js (npm's axe-core) each view is also checked for accessibility. How long a view takes is printed, never
 judged.
 """
+import csv
 import json
 import os
 import pathlib
@@ -19,6 +20,7 @@ import time
 import urllib.error
 import urllib.parse
 import urllib.request
+import uuid
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "web/tests"))
@@ -55,6 +57,46 @@ def store_in(folder):
     return store, learners
 
 
+def fill(store):
+    """16 people more, 8 of them surgeons, each with the second session's scores and other points; returns their sessions."""
+    database = sqlite3.connect(store)
+    session = database.execute("SELECT * FROM session ORDER BY started_ms LIMIT 1").fetchone()
+    scores = database.execute("SELECT * FROM score WHERE session_id = ?", (session[0],)).fetchall()
+    made = []
+    for n in range(16):
+        learner, new = f"otter-{2000 + n}", str(uuid.uuid4())
+        database.execute("INSERT INTO learner VALUES (?, 0, ?, '', NULL, 0)", (learner, "surgeon" if n < 8 else "PGY1"))
+        for k in range(2):
+            new = str(uuid.uuid4())
+            made.append(new)
+            database.execute("INSERT INTO session VALUES (" + ",".join("?" * len(session)) + ")", (new, learner, session[2], session[3] + k + 1, *session[4:6], 0, 1, *session[8:]))
+            for score in scores:
+                id = str(uuid.uuid4())
+                points = (60 if n < 8 else 30) + 5 * (n % 4) + 3 * k
+                database.execute("INSERT INTO score VALUES (" + ",".join("?" * len(score)) + ")", (id, new, *score[2:5], points, 0, *score[7:]))
+                for item in database.execute("SELECT * FROM item WHERE score_id = ?", (score[0],)).fetchall():
+                    database.execute("INSERT INTO item VALUES (" + ",".join("?" * len(item)) + ")", (id, *item[1:]))
+    database.commit()
+    return made
+
+
+def rows(store, sql):
+    return sqlite3.connect(store).execute(sql).fetchall()
+
+
+def marks_by(store, folder, rater, sessions, shift):
+    table = folder / "marks.csv"
+    with open(table, "w", newline="") as file:
+        out = csv.writer(file)
+        out.writerow(["session", "item", "mark", "reason"])
+        for n, session in enumerate(sessions):
+            items = json.loads(run("rate", "--store", store, "--session", session, "--json").splitlines()[-1])["items"]
+            for k, item in enumerate(items):
+                if item["part"] == "product":
+                    out.writerow([session, item["id"], "met" if (n * k + shift) % 3 else "unmet", "as, seen" if k == 0 else ""])
+    run("rate", "--store", store, "--rater", rater, "--from", table)
+
+
 class Serving:
     def __init__(self, store):
         self.process = subprocess.Popen([BURR, "serve", "--store", store, "--port", "0", "--live"], stdout=subprocess.PIPE, text=True)
@@ -74,6 +116,131 @@ class Serving:
         self.process.send_signal(signal.SIGTERM)
         code = self.process.wait(20)
         same(code, 0, "exit code of burr serve after SIGTERM")
+
+
+def ask(server, path, body=None, origin=True, token=True, kind="application/json"):
+    """The status and the body of an answer."""
+    head = {"Authorization": "Bearer " + server.token} if token else {}
+    if body is not None:
+        head["Content-Type"] = kind
+    if origin:
+        head["Origin"] = server.base.rstrip("/") if origin is True else origin
+    request = urllib.request.Request(server.base.rstrip("/") + path, None if body is None else body.encode(), head)
+    try:
+        with urllib.request.urlopen(request, timeout=WAIT) as answer:
+            return answer.status, answer.read().decode(errors="replace")
+    except urllib.error.HTTPError as refused:
+        return refused.code, refused.read().decode(errors="replace")
+
+
+def check_guard(server, store, folder):
+    """What a change needs, and that nothing else changes anything."""
+    asked = json.dumps({"rater": "C. Ek", "rubric": ""})
+    for status, given in ((401, {"token": False}), (403, {"origin": False}), (403, {"origin": "http://evil.example"}), (415, {"kind": "text/plain"})):
+        same(ask(server, "/api/rating/next", asked, **given)[0], status, f"a post with {given}")
+    same(ask(server, "/api/rating/next")[0], 405, "to get what is to be posted")
+    for path in ("/api/overview", "/api/standards", "/api/agreement", "/api/rating/product"):
+        same(ask(server, path, "{}")[0], 405, "a post to " + path)
+    for wrong in ("[", "[]", '{"rater": ""}', '{"rater": "machine"}', '{"rater": 3}'):
+        same(ask(server, "/api/rating/next", wrong)[0], 400, "a post of " + wrong)
+    status, text = ask(server, "/api/rating/next", asked)
+    same(status, 200, "the next product")
+    code = json.loads(text)["code"]
+    product = json.loads(ask(server, "/api/rating/product?code=" + code)[1])
+    # nothing says whose it is, when it was made, or what the machine thinks
+    known = {row[0] for row in rows(store, "SELECT id FROM learner UNION SELECT id FROM session UNION SELECT recording_hash FROM session")}
+    for said in (text, json.dumps(product)):
+        for word in ("PGY", "surgeon", "started", "result", "value", "threshold", "mcap", *known):
+            assert word not in said, f"an answer to a rater says {word}: {said}"
+    marks = [{"item": item["id"], "mark": "met", "reason": ""} for item in product["items"]]
+    good = {"rater": "C. Ek", "code": code, "marks": marks}
+    before = rows(store, "SELECT count(*) FROM audit")
+    for status, wrong in ((404, {**good, "code": "x"}), (404, {**good, "rater": "D. Frid"}), (400, {**good, "marks": []}), (400, {**good, "marks": marks + [{"item": "x", "mark": "met"}]}),
+                          (400, {**good, "marks": [{**marks[0], "mark": "good"}]}), (400, {**good, "marks": [{**marks[0], "reason": "x" * 501}]}), (400, {**good, "marks": marks[:1] * 201})):
+        same(ask(server, "/api/rating/marks", json.dumps(wrong))[0], status, "bad marks")
+    try:
+        refused = ask(server, "/api/rating/marks", " " * 70000 + json.dumps(good))[0]
+    except OSError:  # the line was cut
+        refused = 413
+    same(refused, 413, "a body of 70 kB")
+    same(ask(server, "/api/rating/marks", json.dumps(good), origin=False)[0], 403, "marks from nowhere")
+    same(rows(store, "SELECT count(*) FROM rater_mark WHERE rater_id = 'C. Ek'"), [(0,)], "marks that were refused")
+    same(rows(store, "SELECT count(*) FROM audit"), before, "rows of the audit")
+    same(ask(server, "/api/rating/marks", json.dumps(good))[0], 200, "good marks")
+    same(rows(store, "SELECT count(*), min(blinded) FROM rater_mark WHERE rater_id = 'C. Ek'"), [(len(marks), 1)], "marks that were kept")
+    same(rows(store, "SELECT count(*) FROM audit WHERE what = 'marked by a person'")[0][0], 25, "markings in the audit")
+    same(ask(server, "/api/rating/marks", json.dumps(good))[0], 400, "the same marks again")
+
+
+def check_marking(page, server, store):
+    """A rater marks a product in the page."""
+    go(page, "/rate")
+    page.run("(() => { document.getElementById('rater').value = 'E. Gran'; document.querySelector('main form').requestSubmit(); })()")
+    page.wait("document.querySelectorAll('.pictures img').length && [...document.querySelectorAll('.pictures img')].every(one => one.naturalWidth > 0)", 3 * WAIT)
+    same(page.run("document.querySelectorAll('.pictures img').length"), 10, "pictures")
+    assert all(page.run("[...document.querySelectorAll('.pictures img')].map(one => one.alt.length > 4)"))
+    known = {row[0] for row in rows(store, "SELECT id FROM learner UNION SELECT id FROM session")}
+    shown = page.run("document.documentElement.outerHTML") + " ".join(url for _, url in page.requests if "rating" in url)
+    same([one for one in known if one in shown], [], "what tells a rater whose it is")
+    for language in ("sv", "de", "en"):
+        speak(page, language)
+        page.wait("document.querySelectorAll('.pictures img').length === 10 && [...document.querySelectorAll('.pictures img')].every(one => one.naturalWidth > 0) && document.documentElement.lang === " + json.dumps(language), WAIT)
+        look(page, "rate_" + language)
+    address = next(url for _, url in page.requests if "rating/picture" in url)
+    status, picture = ask(server, "/" + address.removeprefix(server.base))
+    same(status, 200, "a picture")
+    assert picture[1:4] == "PNG"
+    for word in ("tEXt", "iTXt", "zTXt", "heron", "otter", *known):
+        assert word not in picture, "a picture says " + word
+    # nothing is kept before every item has a mark
+    page.run("document.querySelector('form.marks').requestSubmit()")
+    page.wait("document.getElementById('state').className === 'wrong'", WAIT)
+    assert page.run("document.activeElement.type") == "radio"
+    same(rows(store, "SELECT count(*) FROM rater_mark WHERE rater_id = 'E. Gran'"), [(0,)], "marks before all are given")
+    items = page.run("document.querySelectorAll('form.marks fieldset').length")
+    left = page.run("document.querySelector('main div > p').textContent")
+    page.run("document.querySelectorAll('form.marks fieldset').forEach((one, n) => one.querySelectorAll('input[type=radio]')[n % 3].click())")
+    page.run("document.querySelector('form.marks input[type=text]').value = '<b>why</b>'")
+    page.run("document.querySelector('form.marks').requestSubmit()")
+    page.wait("document.querySelector('main div > p') && document.querySelector('main div > p').textContent !== " + json.dumps(left), WAIT)
+    kept = rows(store, "SELECT mark, reason FROM rater_mark WHERE rater_id = 'E. Gran'")
+    same(len(kept), items, "marks that were kept")
+    same({mark for mark, _ in kept}, {"met", "unmet", "not assessable"}, "the kinds of marks")
+    assert any(reason == "<b>why</b>" for _, reason in kept)
+
+
+def check_figures(page, server, store, folder, sessions):
+    """Agreement and standards are those that `burr study` gives; no word of passing without a standard."""
+    go(page, "/standards")
+    same(re.findall(r"\b(pass|fail)\b", page.run("document.querySelector('main').innerText")), [], "words of passing without a standard")
+    for command in (("raters",), ("reliability", "--marks", "2"), ("curve",), ("standard", "--low", "PGY1", "--high", "surgeon")):
+        table = folder / "table.csv"
+        first = run("study", command[0], "--store", store, *command[1:], "--out", table, "--json")
+        more = [one for one in command[1:] if one not in ("--low", "--high", "PGY1", "surgeon")]
+        same(run("study", command[0], table, *more, "--json"), first, f"figures of burr study {command[0]} from its table")
+    few = subprocess.run([BURR, "study", "standard", "--store", store, "--low", "PGY2", "--high", "surgeon", "--set-by", "A. Berg"], capture_output=True, text=True)
+    assert few.returncode != 0 and "8" in few.stderr, few
+    nobody = subprocess.run([BURR, "study", "reliability", "--store", store], capture_output=True, text=True)
+    assert nobody.returncode != 0, nobody
+    same(rows(store, "SELECT count(*) FROM standard"), [(0,)], "standards")
+    run("study", "standard", "--store", store, "--low", "PGY1", "--high", "surgeon", "--set-by", "A. Berg", "--note", "in May")
+    standard = rows(store, "SELECT id FROM standard")[0][0]
+    said = run("learner", "decide", "--store", store, "otter-2000")
+    assert "proposal: reached" in said and "A person decides" in said, said
+    run("learner", "decide", "--store", store, "otter-2000", "--standard", standard, "--outcome", "pass", "--confirmed-by", "A. Berg", "--reason", "as proposed")
+    alone = subprocess.run([BURR, "learner", "decide", "--store", store, "otter-2001", "--standard", standard, "--outcome", "pass"], capture_output=True, text=True)
+    assert alone.returncode != 0, "a decision without a person"
+    same(rows(store, "SELECT count(*) FROM decision"), [(1,)], "decisions")
+    figures = json.loads(run("study", "raters", "--store", store, "--json").splitlines()[-1])
+    shown = json.loads(ask(server, "/api/agreement")[1])["raters"]["figures"]
+    same([(one["item"], one["agreement"], one["kappa"], one["ac1"]) for one in shown["pairs"]],
+         [(one["item"], one["agreement"], one["kappa"], one["ac1"]) for one in figures["pairs"]], "figures of the page")
+    same(shown["icc"], figures["icc_a1"], "ICC of the page")
+    assert shown["icc"] is not None and shown["complete"] == 12, shown
+    check_views(page, {"agreement": "/agreement", "standards": "/standards"})
+    go(page, "/standards")
+    text = page.run("document.querySelector('main').innerText")
+    assert "pass, A. Berg" in text and "reached, in sessions 1 and 2" in text and "2 of 5" in text, text
 
 
 def go(page, path):
@@ -104,7 +271,7 @@ def speak(page, language):
 
 
 def check_views(page, views):
-    for language in ("en", "sv", "de"):
+    for language in ("sv", "de", "en"):
         speak(page, language)
         for name, path in views.items():
             go(page, path)
@@ -287,6 +454,16 @@ def main():
             check_views(page, {"overview": "/", "cohort": f"/cohort/{cohort}/tooth", "learner": "/learner/heron-1000",
                                "learner_without": "/learner/heron-1003", "session": "/session/" + sessions[0],
                                "compare": "/compare/" + "/".join(sessions), "audit": "/audit"})
+            few = page.run("fetch('/api/agreement', {headers: {Authorization: 'Bearer ' + sessionStorage.getItem('burr-token')}}).then(a => a.json())")
+            same(few["raters"]["figures"], None, "figures of raters without marks")
+            same([one["figures"] for one in few["reliability"]], [None, None], "reliability of one person")
+            check_views(page, {"agreement_few": "/agreement", "standards_none": "/standards", "rate_begin": "/rate"})
+            more = fill(store)
+            marks_by(store, pathlib.Path(place), "A. Berg", more[:12], 0)
+            marks_by(store, pathlib.Path(place), "B. Dahl", more[:12], 1)
+            check_guard(server, store, pathlib.Path(place))
+            check_marking(page, server, store)
+            check_figures(page, server, store, pathlib.Path(place), more)
             # markup stays text
             go(page, f"/cohort/{cohort}/tooth")
             assert MARKUP in page.run("document.querySelector('h1').textContent")
@@ -321,6 +498,8 @@ def main():
             page.wait("document.getElementById('state') && document.getElementById('state').className === 'wrong'", WAIT)
             keys = page.run("import('/words.mjs').then(m => Object.values(m.words).map(one => Object.keys(one).sort().join()))")
             same(len(set(keys)), 1, "sets of keys of the languages")
+            keys = page.run("import('/rating_words.mjs').then(m => Object.values(m.ratingWords).map(one => Object.keys(one).sort().join()))")
+            same(len(set(keys)), 1, "sets of keys of the languages of marking")
             # by keyboard: the first stop leads to the content
             for kind in ("keyDown", "keyUp"):
                 page.send("Input.dispatchKeyEvent", {"type": kind, "key": "Tab", "code": "Tab", "windowsVirtualKeyCode": 9})

@@ -253,7 +253,11 @@ TEST_P(StoreTest, AnOlderStoreIsBroughtUpAndKeepsItsRows) {
   for (const Sql one :
        {Sql("DROP INDEX session_of_learner"), Sql("DROP INDEX mark_of_session"),
         Sql("DROP INDEX decision_on_learner"), Sql("DROP INDEX member_in_cohort"),
-        Sql("DROP INDEX outbox_next"), Sql("DELETE FROM schema_version WHERE v >= 2")})
+        Sql("DROP INDEX outbox_next"), Sql("ALTER TABLE standard DROP COLUMN part"),
+        Sql("ALTER TABLE standard DROP COLUMN judges"),
+        Sql("ALTER TABLE standard DROP COLUMN set_by"),
+        Sql("ALTER TABLE standard DROP COLUMN made_ms"), Sql("ALTER TABLE decision DROP COLUMN id"),
+        Sql("DELETE FROM schema_version WHERE v >= 2")})
     ASSERT_TRUE(in.run(one));
   open();
   EXPECT_EQ(count("SELECT max(v) FROM schema_version"), kSchema);

@@ -24,6 +24,22 @@ Balanced table_of(std::vector<std::vector<double>> values, int bones = 1) {
   return out;
 }
 
+TEST(Study, ARaterWhoHasJustBegunTakesNoFiguresAway) {
+  std::vector<Rating> ratings;
+  for (int n = 0; n < 12; ++n)
+    for (const char* rater : {"a", "b", "new"})
+      for (const char* item : {"x", "y"})
+        if (rater != std::string("new") || n < 3)
+          ratings.push_back(
+              {std::to_string(n), rater, item, (n + (*item == 'x' ? 1 : 0)) % 3 == 0});
+  const auto out = study_raters(ratings);
+  ASSERT_TRUE(out) << out.error().text;
+  EXPECT_EQ(out->complete, 12);
+  ASSERT_EQ(out->apart.size(), 1U);
+  EXPECT_EQ(out->apart[0].first, "a");
+  EXPECT_EQ(out->apart[0].second, "b");
+}
+
 TEST(Study, ReliabilityOfBrennansFirstData) {
   // Brennan, Generalizability Theory, 2001, tables 2.2 and 2.3: 10 persons, 12 items
   const Reliability out = reliability(table_of({{1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0},

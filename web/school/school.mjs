@@ -1,5 +1,6 @@
 // The instructor's page: what the store says, as tables and one kind of chart. Texts of people enter the page as text
 // nodes only, never as markup. The token comes in the part of the address after '#' and stays in this tab.
+import { ratingViews } from "./rating.mjs";
 import { words } from "./words.mjs";
 import { live } from "./live.mjs";
 import { beside, replay } from "./replay.mjs";
@@ -54,19 +55,21 @@ function takeToken() {
   sessionStorage.setItem("burr-token", decodeURIComponent(found[1]));
   history.replaceState(null, "", location.pathname + "#/");
 }
-async function raw(path, more = {}, fields = {}) {
+async function raw(path, body) {
   let answer;
+  const headers = { Authorization: "Bearer " + (sessionStorage.getItem("burr-token") ?? "") };
+  if (body !== undefined) headers["Content-Type"] = "application/json";
   try {
-    answer = await fetch("/api/" + path, { ...more, headers: { Authorization: "Bearer " + (sessionStorage.getItem("burr-token") ?? ""), ...fields } });
+    answer = await fetch("/api/" + path, body === undefined ? { headers } : { method: "POST", headers, body: JSON.stringify(body) });
   } catch {
     throw new Error(say("gone"));
   }
   if (answer.status === 401) throw new Error(say("token"));
   return answer;
 }
-const post = (path, content) => ask(path, { method: "POST", body: JSON.stringify(content) }, { "Content-Type": "application/json" });
-async function ask(path, more, fields) {
-  const answer = await raw(path, more, fields);
+// body: posted as JSON; none: asked for.
+async function ask(path, body) {
+  const answer = await raw(path, body);
   const type = answer.headers.get("Content-Type") ?? "";
   if (!type.startsWith("application/json")) return answer.blob();
   const out = await answer.json();
@@ -253,10 +256,18 @@ async function download() {
 
 // ---- the frame
 
+// A sentence in the line of state; trouble: an Error, or null.
+function tell(trouble, text = "") {
+  if (trouble) return wrong(trouble);
+  const state = document.getElementById("state");
+  state.className = "";
+  state.textContent = text;
+}
+
 // what the views in other files need
-const kit = { el, say, ask, post, raw, link, to, number, time, textOf, table, facts, language: () => language };
+const kit = { words, el, say, ask, post: ask, raw, query, tell, link, to, number, time, textOf, table, facts, language: () => language };
 const views = { "": overview, cohort, learner, session, compare, audit, live: name => live(kit, name),
-  replay: (id, at) => replay(kit, id, at), beside: (first, second) => beside(kit, first, second) };
+  replay: (id, at) => replay(kit, id, at), beside: (first, second) => beside(kit, first, second), ...ratingViews(kit) };
 
 function frame() {
   document.documentElement.lang = language;
@@ -268,7 +279,8 @@ function frame() {
   const entry = (path, key) => el("a", { href: "#" + path, "aria-current": here === path ? "page" : null }, say(key));
   const csv = el("a", { href: "#" + here }, say("csv"));
   csv.addEventListener("click", event => { event.preventDefault(); download().catch(wrong); });
-  document.getElementById("nav").replaceChildren(entry("/", "overview"), entry("/live", "stations"), entry("/audit", "audit"), csv);
+  document.getElementById("nav").replaceChildren(entry("/", "overview"), entry("/live", "stations"), entry("/rate", "rate"), entry("/agreement", "agreement_title"),
+    entry("/standards", "standards"), entry("/audit", "audit"), csv);
 }
 function wrong(trouble) {
   const state = document.getElementById("state");

@@ -1,5 +1,5 @@
 // `burr study`: what a centre must know of its marks before it decides by them - reliability, agreement of raters, cuts,
-// learning curves. From tables (CSV), so also from marks that burr did not give.
+// learning curves. From the store of learners, and from tables (CSV), so also from marks that burr did not give.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -9,10 +9,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "burr/base/printable.h"
+#include "burr/school/decisions.h"
+#include "burr/school/ratings.h"
+#include "burr/school/sessions.h"
 #include "burr/school/study/curve.h"
 #include "burr/school/study/raters.h"
 #include "burr/school/study/reliability.h"
@@ -20,6 +24,8 @@
 #include "burr/school/study/table.h"
 #include "commands/command.h"
 #include "commands/json_line.h"
+#include "school/agreement.h"
+#include "school/study_source.h"
 
 namespace burr::app {
 namespace {
@@ -28,7 +34,8 @@ namespace study = school::study;
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string path, method = "contrasting", marks;
+  StudySource source;
+  std::string method = "contrasting", marks, set_by, note;
   int occasions = 5;
   unsigned long seed = 1;
   bool bones = false, json = false;
@@ -73,22 +80,20 @@ void print(const study::Reliability& of, const study::Balanced& used, const stud
 }
 
 Status reliability(const Options& options) {
-  auto table = study::read_table(options.path, {"learner", "mark"}, {"bone", "guided"});
+  auto table = table_for(options.source, Asked::marks, {"learner", "mark"}, {"bone", "guided"});
   if (!table) return table.error();
-  std::vector<study::Mark> marks;
-  for (std::size_t n = 0; n < table->rows.size(); ++n) {
-    if (!table->rows[n][3].empty()) {
-      const auto guided = table->flag(n, 3);
-      if (!guided) return guided.error();
-      if (*guided) continue;
-    }
-    const auto mark = table->number(n, 1);
-    if (!mark) return mark.error();
-    marks.push_back({table->rows[n][0], table->rows[n][2], *mark});
-  }
-  const auto used = study::balance(marks, options.occasions, options.bones);
+  const auto marks = marks_of(*table);
+  if (!marks) return marks.error();
+  const auto used = study::balance(*marks, options.occasions, options.bones);
   if (!used)
     return error(used.error().trouble, fmt::format("{}: {}", table->file, used.error().text));
+  const auto people = static_cast<std::int64_t>(used->persons.size());
+  if (options.source.from_store && people < school::kFewestPeople)
+    return error(
+        Trouble::usage,
+        fmt::format("{} of {} learners have {} finished sessions without guidance; figures "
+                    "of fewer than {} people are not shown",
+                    people, people + used->left_out, options.occasions, school::kFewestPeople));
   const study::Reliability out = study::reliability(*used);
   const study::Interval g_95 = study::interval_of_g(*used, options.occasions, 2000, options.seed);
   if (!options.json) {
@@ -151,15 +156,11 @@ void print(const study::RaterStudy& of) {
 }
 
 Status raters(const Options& options) {
-  auto table = study::read_table(options.path, {"product", "rater", "item", "met"});
+  auto table = table_for(options.source, Asked::ratings, {"product", "rater", "item", "met"});
   if (!table) return table.error();
-  std::vector<study::Rating> ratings;
-  for (std::size_t n = 0; n < table->rows.size(); ++n) {
-    const auto met = table->flag(n, 3);
-    if (!met) return met.error();
-    ratings.push_back({table->rows[n][0], table->rows[n][1], table->rows[n][2], *met});
-  }
-  const auto out = study::study_raters(ratings, options.seed);
+  const auto ratings = ratings_of(*table);
+  if (!ratings) return ratings.error();
+  const auto out = study::study_raters(*ratings, options.seed);
   if (!out) return error(fmt::format("{}: {}", table->file, out.error().text));
   if (!options.json) {
     print(*out);
@@ -194,8 +195,13 @@ Status raters(const Options& options) {
 
 // ---- standards
 
-Status contrasting(const Options& options) {
-  auto table = study::read_table(options.path, {"group", "mark"});
+// "levels PGY1, PGY2 against surgeon"
+std::string groups_in(const StudySource& source) {
+  return fmt::format("levels {} against {}", base::list_of(source.low), base::list_of(source.high));
+}
+
+Status contrasting(const Options& options, school::Standard& found) {
+  auto table = table_for(options.source, Asked::groups, {"group", "mark"});
   if (!table) return table.error();
   std::vector<double> low, high;
   for (std::size_t n = 0; n < table->rows.size(); ++n) {
@@ -209,6 +215,14 @@ Status contrasting(const Options& options) {
   }
   const auto out = study::contrasting_groups(low, high, options.seed);
   if (!out) return error(fmt::format("{}: {}", table->file, out.error().text));
+  found.method = "contrasting groups";
+  found.cut = out->cut;
+  found.n_low = out->n_low;
+  found.n_high = out->n_high;
+  found.false_pass = out->pass_expected;
+  found.false_fail = out->fail_expected;
+  found.text = fmt::format("{}; 95 % of the cut: {:.4g} to {:.4g}", groups_in(options.source),
+                           out->cut_95.low, out->cut_95.high);
   if (options.json) {
     fmt::print("{}\n", json_line(Json{{"method", "contrasting groups"},
                                       {"cut", out->cut},
@@ -244,8 +258,9 @@ Status contrasting(const Options& options) {
   return fine();
 }
 
-// The judges' probabilities in the order of the items of the first judge.
-Result<std::vector<std::vector<double>>> judged(const study::Table& table) {
+// The judges' probabilities in the order of the items of the first judge, which `items` gets.
+Result<std::vector<std::vector<double>>> judged(const study::Table& table,
+                                                std::vector<std::string>& items) {
   std::vector<std::string> judges;
   std::map<std::string, std::map<std::string, double>> of;
   for (std::size_t n = 0; n < table.rows.size(); ++n) {
@@ -258,6 +273,7 @@ Result<std::vector<std::vector<double>>> judged(const study::Table& table) {
                                base::printable(judge), base::printable(item)));
   }
   std::vector<std::vector<double>> out;
+  for (const auto& [item, unused] : of[judges.front()]) items.push_back(item);
   for (const std::string& judge : judges) {
     std::vector<double>& row = out.emplace_back();
     for (const auto& [item, unused] : of[judges.front()]) {
@@ -275,13 +291,34 @@ Result<std::vector<std::vector<double>>> judged(const study::Table& table) {
   return out;
 }
 
-Status angoff(const Options& options) {
-  auto table = study::read_table(options.path, {"judge", "item", "probability"});
+// The cut in points: items count by their weights.
+Status angoff_in_points(const StudySource& source, const std::vector<std::string>& items,
+                        std::vector<std::vector<double>> rows, school::Standard& found) {
+  const auto points = points_of_items(source, items);
+  if (!points) return points.error();
+  for (std::vector<double>& row : rows)
+    for (std::size_t n = 0; n < row.size(); ++n) row[n] *= (*points)[n];
+  const auto out = study::angoff(rows);
+  if (!out) return out.error();
+  found.method = "Angoff";
+  found.cut = out->cut;
+  found.judges = out->judges;
+  found.text = fmt::format("{} items; 95 % of the cut: {:.4g} to {:.4g}", out->items,
+                           out->cut_95.low, out->cut_95.high);
+  return fine();
+}
+
+Status angoff(const Options& options, school::Standard& found) {
+  auto table = study::read_table(options.source.path, {"judge", "item", "probability"});
   if (!table) return table.error();
-  const auto rows = judged(*table);
+  std::vector<std::string> items;
+  const auto rows = judged(*table, items);
   if (!rows) return rows.error();
   const auto out = study::angoff(*rows);
   if (!out) return error(fmt::format("{}: {}", table->file, out.error().text));
+  if (options.source.from_store)
+    if (const Status made = angoff_in_points(options.source, items, *rows, found); !made)
+      return made;
   if (options.json)
     fmt::print("{}\n", json_line(Json{{"method", "Angoff"},
                                       {"judges", out->judges},
@@ -297,11 +334,27 @@ Status angoff(const Options& options) {
   return fine();
 }
 
-Status hofstee(const Options& options) {
+Result<std::vector<double>> marks_for_hofstee(const Options& options) {
+  if (options.source.from_store) return last_marks(options.source);
   if (options.marks.empty())
     return error(Trouble::usage,
-                 "--method hofstee: give the marks with --marks F.csv (column mark)");
-  auto table = study::read_table(options.path, {"cut_low", "cut_high", "fail_low", "fail_high"});
+                 "--method hofstee: give the marks with --marks F.csv (column mark), or --store");
+  const auto table = study::read_table(options.marks, {"mark"});
+  if (!table) return table.error();
+  std::vector<double> marks;
+  for (std::size_t n = 0; n < table->rows.size(); ++n) {
+    const auto mark = table->number(n, 0);
+    if (!mark) return mark.error();
+    marks.push_back(*mark);
+  }
+  return marks;
+}
+
+Status hofstee(const Options& options, school::Standard& found) {
+  const auto marks = marks_for_hofstee(options);
+  if (!marks) return marks.error();
+  auto table =
+      study::read_table(options.source.path, {"cut_low", "cut_high", "fail_low", "fail_high"});
   if (!table) return table.error();
   std::vector<study::HofsteeJudge> judges;
   for (std::size_t n = 0; n < table->rows.size(); ++n) {
@@ -313,16 +366,12 @@ Status hofstee(const Options& options) {
       *places[c] = *value;
     }
   }
-  auto of_marks = study::read_table(options.marks, {"mark"});
-  if (!of_marks) return of_marks.error();
-  std::vector<double> marks;
-  for (std::size_t n = 0; n < of_marks->rows.size(); ++n) {
-    const auto mark = of_marks->number(n, 0);
-    if (!mark) return mark.error();
-    marks.push_back(*mark);
-  }
-  const auto out = study::hofstee(judges, marks);
+  const auto out = study::hofstee(judges, *marks);
   if (!out) return error(fmt::format("{}: {}", table->file, out.error().text));
+  found.method = "Hofstee";
+  found.cut = out->cut;
+  found.judges = out->judges;
+  found.text = fmt::format("{:.0f} % of {} marks lie below the cut", 100 * out->fail, out->marks);
   if (options.json)
     fmt::print("{}\n", json_line(Json{{"method", "Hofstee"},
                                       {"judges", out->judges},
@@ -338,8 +387,54 @@ Status hofstee(const Options& options) {
 }
 
 Status standard(const Options& options) {
-  if (options.method == "angoff") return angoff(options);
-  return options.method == "hofstee" ? hofstee(options) : contrasting(options);
+  const bool keeps = !options.set_by.empty();
+  if (keeps && !options.source.from_store)
+    return error(Trouble::usage, "--set-by: name the store of the centre too, with --store");
+  if (options.method != "contrasting" && options.source.path.empty())
+    return error(Trouble::usage, "give the judges' table (F.csv)");
+  school::Standard found;
+  const Status done = options.method == "angoff"    ? angoff(options, found)
+                      : options.method == "hofstee" ? hofstee(options, found)
+                                                    : contrasting(options, found);
+  if (!done || !keeps) return done;
+  found.set_by = options.set_by;
+  if (!options.note.empty()) found.text += "; " + options.note;
+  const auto id = keep_standard(options.source, found);
+  if (!id) return id.error();
+  if (options.json)
+    fmt::print("{}\n", json_line(Json{{"standard", *id}, {"cut", found.cut}}));
+  else
+    fmt::print("kept as standard {}: {:.4g} points of the {}, set by {}\n", *id, found.cut,
+               options.source.part, base::printable(found.set_by));
+  return fine();
+}
+
+Status list_standards(const Options& options) {
+  const auto store = store_that_is_there(options.source.store);
+  if (!store) return store.error();
+  const auto all = school::standards(**store);
+  if (!all) return all.error();
+  Json json = Json::array();
+  for (const school::Standard& one : *all) {
+    if (options.json)
+      json.push_back({{"id", one.id},
+                      {"rubric", one.rubric},
+                      {"part", one.part},
+                      {"method", one.method},
+                      {"cut", one.cut},
+                      {"set_by", one.set_by},
+                      {"made_ms", one.made_ms},
+                      {"text", one.text}});
+    else
+      fmt::print("{}  {} of {}: {:.4g} points, {} ({}); set by {}\n", one.id, one.part,
+                 base::printable(one.rubric), one.cut, one.method,
+                 base::printable(one.text, school::kLongestReason), base::printable(one.set_by));
+  }
+  if (options.json)
+    fmt::print("{}\n", json_line(json));
+  else if (all->empty())
+    fmt::print("This centre has set no standard.\n");
+  return fine();
 }
 
 // ---- curves
@@ -362,7 +457,8 @@ void print(const std::string& learner, const study::Curve& curve) {
 }
 
 Status curve(const Options& options) {
-  auto table = study::read_table(options.path, {"learner", "mark"}, {"attempt", "bone", "guided"});
+  auto table =
+      table_for(options.source, Asked::marks, {"learner", "mark"}, {"attempt", "bone", "guided"});
   if (!table) return table.error();
   std::vector<std::string> learners;
   std::map<std::string, std::vector<study::Attempt>> of;
@@ -419,15 +515,34 @@ Status curve(const Options& options) {
 
 // ---- the command
 
+void add_store(CLI::App& command, const std::shared_ptr<Options>& options) {
+  command
+      .add_option("--store", options->source.store,
+                  "in place of a table: the store of learners, a file or postgresql://...; "
+                  "default: as `burr learner`")
+      ->expected(0, 1);
+}
+
 CLI::App& part(CLI::App& command, Todo& todo, const char* name, const char* what,
                const char* columns, const std::shared_ptr<Options>& options,
                Status (*work)(const Options&)) {
   CLI::App* one = command.add_subcommand(name, what);
-  one->add_option("table", options->path, columns)->required();
+  StudySource& source = options->source;
+  one->add_option("table", source.path, columns);
+  add_store(*one, options);
+  one->add_option("--rubric", source.rubric,
+                  "of the store: a name or a hash (default: the only one)");
+  one->add_option("--part", source.part, "of the store's scores")
+      ->check(CLI::IsMember({"product", "process"}))
+      ->capture_default_str();
+  one->add_option("--out", source.out, "F.csv: the table that the store gave");
   one->add_option("--seed", options->seed, "of the samples behind the 95 % intervals")
       ->capture_default_str();
   one->add_flag("--json", options->json, "one JSON object, or array, as the last line");
-  one->callback([options, &todo, work] { todo.work = [options, work] { return work(*options); }; });
+  one->callback([options, &todo, work, one] {
+    options->source.from_store = one->count("--store") > 0;
+    todo.work = [options, work] { return work(*options); };
+  });
   return *one;
 }
 
@@ -459,6 +574,17 @@ void add(CLI::App& app, Todo& todo) {
       ->capture_default_str();
   of_standard.add_option("--marks", options->marks,
                          "F.csv with a column mark: the marks, for hofstee");
+  for (const auto& [name, to, what] :
+       {std::tuple{"--low", &options->source.low, "with --store: levels that cannot yet"},
+        std::tuple{"--high", &options->source.high, "with --store: levels that can"}})
+    of_standard.add_option(name, *to, what)->delimiter(',');
+  of_standard.add_option("--set-by", options->set_by,
+                         "with --store: your name; the cut becomes a standard of the centre");
+  of_standard.add_option("--note", options->note, "with --set-by: a remark, one line");
+  CLI::App* list = command->add_subcommand("standards", "the standards that the centre has set");
+  add_store(*list, options);
+  list->add_flag("--json", options->json, "one JSON array, as the last line");
+  list->callback([options, &todo] { todo.work = [options] { return list_standards(*options); }; });
   part(*command, todo, "curve", "each learner's curve over attempts",
        "F.csv: columns learner, mark [, attempt, bone, guided]", options, curve);
 }

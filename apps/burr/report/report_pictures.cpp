@@ -223,23 +223,61 @@ Result<ReportPicture> ReportArtist::drawn(int width, int height, std::string cap
   return as_picture(*image, std::move(caption));
 }
 
-Result<ReportPicture> ReportArtist::side(std::size_t which) {
+// Puts the camera at a side of what was removed; returns the height of what it sees [m].
+double ReportArtist::aim(std::size_t side) {
   static constexpr std::array<std::pair<double, double>, kSides> kTurns = {
       {{0, 0}, {0, -kAside}, {-kAside, 0}, {kAside, 0}}};
-  static constexpr std::array<Word, kSides> kNames = {Word::report_straight, Word::report_below,
-                                                      Word::report_left, Word::report_right};
-  if (which == 0) paint(all_of_the_case(), scored_.score.shown.remove);
   const auto& at = scored_.judged.work.at;
   const bool nothing = cavity_.empty();
   const double size = nothing ? 20e-3 : cavity_.extent().maxCoeff();
   const Vec3 middle = nothing ? at.value_or(Vec3::Zero()) : cavity_.centre();
   const double height = std::clamp(1.15 * size + 6e-3, 18e-3, 90e-3);
   scene_.camera = camera_at(middle, height);
-  render::orbit(scene_.camera, kTurns[which].first, kTurns[which].second);
+  render::orbit(scene_.camera, kTurns[side].first, kTurns[side].second);
   scene_.burr.visible = false;
   scene_.markers.clear();
+  return height;
+}
+
+Result<ReportPicture> ReportArtist::side(std::size_t which) {
+  static constexpr std::array<Word, kSides> kNames = {Word::report_straight, Word::report_below,
+                                                      Word::report_left, Word::report_right};
+  if (which == 0) paint(all_of_the_case(), scored_.score.shown.remove);
+  const double height = aim(which);
   return drawn(kSideWide, kSideHigh,
                word(kNames[which]) + wide_words(height * kSideWide / kSideHigh));
+}
+
+Result<std::vector<ReportArtist::Plain>> ReportArtist::plain() {
+  static constexpr std::array<const char*, kSides> kNames = {"straight", "below", "left", "right"};
+  std::vector<Plain> out;
+  double height = 0;
+  for (std::size_t n = 0; n < kSides; ++n) {
+    height = aim(n);
+    auto picture = drawn(kSideWide, kSideHigh, "");
+    if (!picture) return picture.error();
+    out.push_back({kNames[n], height * kSideWide / kSideHigh, std::move(*picture)});
+  }
+  if (cavity_.empty()) return out;
+  static constexpr std::array<std::pair<render::Plane, const char*>, 3> kPlanes = {
+      {{render::Plane::axial, "axial"},
+       {render::Plane::coronal, "coronal"},
+       {render::Plane::sagittal, "sagittal"}}};
+  for (const auto& [plane, name] : kPlanes)
+    for (const int third : {1, 2}) {
+      render::Slice slice;
+      slice.plane = plane;
+      slice.through = cavity_.lo + third / 3.0 * cavity_.extent();
+      slice.height = height;
+      render::Image image{kSideWide, kSideHigh, {}};
+      while (!slicer_->draw(slice, image)) {
+      }
+      auto picture = as_picture(image, "");
+      if (!picture) return picture.error();
+      out.push_back(
+          {fmt::format("{}-{}", name, third), height * kSideWide / kSideHigh, std::move(*picture)});
+    }
+  return out;
 }
 
 Result<ReportPicture> ReportArtist::map_of(const std::vector<Spot>& spots, std::string caption) {

@@ -47,6 +47,16 @@ class ReportArtist {
 
   [[nodiscard]] Result<ReportPicture> side(std::size_t which);
 
+  // For a person who must not see what the machine thinks: the bone at the end in the tissues' own colours, from the same
+  // four sides, and two sections along each plane through what was removed. Of every session the same. Call it before
+  // side().
+  struct Plain {
+    std::string name;  // "straight", "below", "left", "right", "axial-1" .. "sagittal-2"
+    double wide = 0;   // how much it shows from left to right, at its middle [m]
+    ReportPicture picture;
+  };
+  [[nodiscard]] Result<std::vector<Plain>> plain();
+
   // Of items, by their number in the rubric, most important first. An item has no pictures, one, or
   // two; those for which no room is left have none. Call it once, after side().
   using Pictures = std::map<std::size_t, std::vector<ReportPicture>>;
@@ -61,6 +71,7 @@ class ReportArtist {
   [[nodiscard]] Paint all_of_the_case() const;
   [[nodiscard]] bool is_new(const surface::Vertex& vertex) const;
   [[nodiscard]] render::Camera camera_at(const math::Vec3& target, double height) const;
+  [[nodiscard]] double aim(std::size_t side);
   [[nodiscard]] Result<ReportPicture> drawn(int width, int height, std::string caption);
   [[nodiscard]] Result<ReportPicture> map_of(const std::vector<scoring::Spot>& spots,
                                              std::string caption);

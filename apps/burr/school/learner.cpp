@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,7 @@
 #include "commands/volume_words.h"
 #include "report/marked.h"
 #include "report/report_page.h"
+#include "school/decide.h"
 #include "school/session_of.h"
 #include "school/xapi.h"
 #include "window/shell/words.h"
@@ -53,6 +55,7 @@ struct Options {
   std::string retain_until;
   // others
   std::string id, recording, rubric, out, csv, title, language = "en";
+  school::Decision decision;
   std::vector<std::string> ids;
   scenario::Recipe volume;
   bool names = false, sessions = false, overdue = false, scrub = false, all = false,
@@ -509,6 +512,14 @@ Status run_audit(const Options& options) {
   return fine();
 }
 
+Status run_decide(const Options& options) {
+  auto store = open_store(options);
+  if (!store) return store.error();
+  return options.decision.outcome.empty()
+             ? show_proposals(**store, options.decision, options.json)
+             : record_decision(**store, options.decision, options.json);
+}
+
 // ---- the command line
 
 using Run = Status (*)(const Options&);
@@ -604,6 +615,23 @@ void add_cohort(CLI::App& command, Todo& todo) {
   }
 }
 
+void add_decide(CLI::App& command, Todo& todo) {
+  auto options = std::make_shared<Options>();
+  auto* decide = sub(command, "decide", "what a standard proposes; or a decision by a person",
+                     options, todo, run_decide);
+  school::Decision& of = options->decision;
+  decide->add_option("learner", of.learner, "a pseudonym")->required();
+  decide->add_option("--standard", of.standard,
+                     "of the centre: its id (`burr study standards`); without it all are shown");
+  auto* outcome = decide->add_option("--outcome", of.outcome, "the decision: pass or fail")
+                      ->check(CLI::IsMember({"pass", "fail"}));
+  for (const auto& [name, to, what] :
+       {std::tuple{"--confirmed-by", &of.confirmed_by, "with --outcome: your name"},
+        std::tuple{"--reason", &of.reason, "with --outcome: why, one line"}})
+    outcome->needs(decide->add_option(name, *to, what)->needs(outcome));
+  outcome->needs(decide->get_option("--standard"));
+}
+
 void add(CLI::App& app, Todo& todo) {
   auto* command = app.add_subcommand("learner", "a centre's learners and their sessions");
   command->require_subcommand(1);
@@ -611,6 +639,7 @@ void add(CLI::App& app, Todo& todo) {
   add_sessions(*command, todo);
   add_cohort(*command, todo);
   add_xapi(*command, todo);
+  add_decide(*command, todo);
   auto options = std::make_shared<Options>();
   sub(*command, "audit", "who did what, and when", options, todo, run_audit);
 }

@@ -45,18 +45,6 @@ Json or_null(const std::optional<std::int64_t>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-// The words of a rubric's items, by id: {"en": ..., "sv": ...}. Empty where its text cannot be read any more.
-std::map<std::string, Json> words_of(Store& store, const std::string& rubric_hash) {
-  std::map<std::string, Json> out;
-  const auto rows = store.database().rows("SELECT text FROM rubric WHERE hash = $1", {rubric_hash});
-  if (!rows || rows->empty()) return out;
-  const auto rubric = scoring::parse_rubric(school::text((*rows)[0][0]), "rubric");
-  if (!rubric) return out;
-  for (const scoring::Item& item : rubric->items)
-    for (const auto& [language, text] : item.say.by_language) out[item.id][language] = text;
-  return out;
-}
-
 Json parts_of(const std::vector<school::ScoreRow>& scores) {
   Json out = Json::object();
   for (const school::ScoreRow& score : scores)  // the newest first
@@ -303,6 +291,18 @@ Response csv(Store& store) {
 }
 
 }  // namespace
+
+std::map<std::string, nlohmann::ordered_json> words_of(Store& store,
+                                                       const std::string& rubric_hash) {
+  std::map<std::string, Json> out;
+  const auto rows = store.database().rows("SELECT text FROM rubric WHERE hash = $1", {rubric_hash});
+  if (!rows || rows->empty()) return out;
+  const auto rubric = scoring::parse_rubric(school::text((*rows)[0][0]), "rubric");
+  if (!rubric) return out;
+  for (const scoring::Item& item : rubric->items)
+    for (const auto& [language, text] : item.say.by_language) out[item.id][language] = text;
+  return out;
+}
 
 Response answer_of_school(Store& store, const Request& request) {
   if (request.method == "POST") return serve::refusal(405, "nothing can be changed here");

@@ -10,6 +10,10 @@
 // Pseudonyms only: the file or schema with the names is never read here. Thread: as the Store.
 #pragma once
 
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
 #include "burr/school/store.h"
 #include "burr/serve/request.h"
 
@@ -17,5 +21,9 @@ namespace burr::app {
 
 // 404 for what there is not, 503 while the store cannot be read.
 [[nodiscard]] serve::Response answer_of_school(school::Store& store, const serve::Request& request);
+
+// The words of a rubric's items, by id: {"en": ..., "sv": ...}. Empty where its text cannot be read any more.
+[[nodiscard]] std::map<std::string, nlohmann::ordered_json> words_of(
+    school::Store& store, const std::string& rubric_hash);
 
 }  // namespace burr::app

@@ -21,6 +21,7 @@
 #include "commands/built_page.h"
 #include "commands/command.h"
 #include "serve/page_files.h"
+#include "serve/rating_api.h"
 #include "serve/replays.h"
 #include "serve/school_api.h"
 #include "serve/stations.h"
@@ -130,6 +131,7 @@ Status run(const Options& options) {
   const auto view = bone_view();
   Replays replays;
   Stations stations;
+  RatingDesk desk(**store);
   serve::Door door = options.door;
   door.port = static_cast<unsigned short>(options.port);
   auto server = serve::HttpServer::open(door, [&](const serve::Request& request) {
@@ -137,8 +139,9 @@ Status run(const Options& options) {
     if (request.path == serve::kStationPath || request.path.starts_with("/api/live"))
       return stations.answer(request, Stations::Clock::now());
     if (request.path.starts_with("/api/replay")) return replays.answer(**store, request);
-    return request.path.starts_with("/api/") ? answer_of_school(**store, request)
-                                             : page(request, view);
+    if (!request.path.starts_with("/api/")) return page(request, view);
+    if (auto marked = desk.answer(request)) return std::move(*marked);
+    return answer_of_school(**store, request);
   });
   if (!server) return server.error();
   guard.hosts = hosts_of(options, (*server)->port());

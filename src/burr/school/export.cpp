@@ -57,10 +57,11 @@ constexpr Table kAll[] = {
     {"rater_mark", "id,session_id,rater_id,item_id,mark,blinded,reason,made_ms",
      "SELECT id, session_id, rater_id, item_id, mark, blinded, reason, made_ms FROM rater_mark "
      "ORDER BY session_id, rater_id, item_id"},
-    {"standard", "id,rubric_hash,method,cut,n_low,n_high,fp,fn,text",
-     "SELECT id, rubric_hash, method, cut, n_low, n_high, fp, fn, text FROM standard ORDER BY id"},
-    {"decision", "session_set_json,learner_id,standard_id,outcome,confirmed_by,reason,made_ms",
-     "SELECT session_set_json, learner_id, standard_id, outcome, confirmed_by, reason, made_ms "
+    {"standard", "id,rubric_hash,part,method,cut,n_low,n_high,judges,fp,fn,text,set_by,made_ms",
+     "SELECT id, rubric_hash, part, method, cut, n_low, n_high, judges, fp, fn, text, set_by, "
+     "made_ms FROM standard ORDER BY made_ms, id"},
+    {"decision", "id,session_set_json,learner_id,standard_id,outcome,confirmed_by,reason,made_ms",
+     "SELECT id, session_set_json, learner_id, standard_id, outcome, confirmed_by, reason, made_ms "
      "FROM decision ORDER BY made_ms, learner_id"},
 };
 

@@ -105,6 +105,7 @@ constexpr Sql kDeletes[] = {
     "UPDATE audit SET who = 'forgotten' WHERE who = $1",
     "UPDATE rater_mark SET rater_id = 'forgotten' WHERE rater_id = $1",
     "UPDATE decision SET confirmed_by = 'forgotten' WHERE confirmed_by = $1",
+    "UPDATE standard SET set_by = 'forgotten' WHERE set_by = $1",
     "DELETE FROM session WHERE learner_id = $1",
     "DELETE FROM cohort_member WHERE learner_id = $1",
     "DELETE FROM learner WHERE id = $1",
@@ -113,12 +114,13 @@ constexpr Sql kDeletes[] = {
 constexpr Sql kScrubFile[] = {"VACUUM main", "VACUUM names"};
 // tables that held something of a learner are written anew
 constexpr Sql kScrubServer[] = {
-    "VACUUM (FULL, ANALYZE) names.person",  "VACUUM (FULL, ANALYZE) item",
-    "VACUUM (FULL, ANALYZE) score",         "VACUUM (FULL, ANALYZE) metric",
-    "VACUUM (FULL, ANALYZE) self_mark",     "VACUUM (FULL, ANALYZE) rater_mark",
-    "VACUUM (FULL, ANALYZE) decision",      "VACUUM (FULL, ANALYZE) outbox",
-    "VACUUM (FULL, ANALYZE) audit",         "VACUUM (FULL, ANALYZE) session",
-    "VACUUM (FULL, ANALYZE) cohort_member", "VACUUM (FULL, ANALYZE) learner",
+    "VACUUM (FULL, ANALYZE) names.person", "VACUUM (FULL, ANALYZE) item",
+    "VACUUM (FULL, ANALYZE) score",        "VACUUM (FULL, ANALYZE) metric",
+    "VACUUM (FULL, ANALYZE) self_mark",    "VACUUM (FULL, ANALYZE) rater_mark",
+    "VACUUM (FULL, ANALYZE) decision",     "VACUUM (FULL, ANALYZE) outbox",
+    "VACUUM (FULL, ANALYZE) standard",     "VACUUM (FULL, ANALYZE) audit",
+    "VACUUM (FULL, ANALYZE) session",      "VACUUM (FULL, ANALYZE) cohort_member",
+    "VACUUM (FULL, ANALYZE) learner",
 };
 
 // In a change of its own: with SQLite the names are another file, and nothing is whole over both.

@@ -87,6 +87,18 @@ constexpr Sql kThirdOfServer[] = {
     "ALTER TABLE self_mark ALTER session_id TYPE TEXT",
 };
 
+// who set a standard, for which part of a score, when, and by how many judges; a decision can be named
+constexpr Sql kFourth[] = {
+    "ALTER TABLE standard ADD COLUMN part TEXT",   "ALTER TABLE standard ADD COLUMN judges BIGINT",
+    "ALTER TABLE standard ADD COLUMN set_by TEXT", "ALTER TABLE standard ADD COLUMN made_ms BIGINT",
+    "ALTER TABLE decision ADD COLUMN id TEXT",
+};
+// the same; no figures of names for the planner here either
+constexpr Sql kFourthOfServer[] = {
+    kFourth[0], kFourth[1], kFourth[2],
+    kFourth[3], kFourth[4], "ALTER TABLE standard ALTER set_by SET STATISTICS 0",
+};
+
 constexpr Sql kNames[] = {
     R"(CREATE TABLE IF NOT EXISTS names.person (learner_id TEXT PRIMARY KEY, name TEXT, mail TEXT,
        external_id TEXT))",
@@ -96,10 +108,11 @@ constexpr Sql kNames[] = {
 std::span<const Sql> step(std::int64_t v, Database::Kind kind) {
   if (v == 0) return kFirst;
   if (v == 1) return kSecond;
-  if (kind == Database::Kind::postgres) return kThirdOfServer;
-  return {};
+  const bool server = kind == Database::Kind::postgres;
+  if (v == 2) return server ? std::span<const Sql>(kThirdOfServer) : std::span<const Sql>();
+  return server ? std::span<const Sql>(kFourthOfServer) : std::span<const Sql>(kFourth);
 }
-static_assert(kSchema == 3);
+static_assert(kSchema == 4);
 
 Result<std::int64_t> version_of(Database& database) {
   const auto there =

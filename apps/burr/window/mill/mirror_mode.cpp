@@ -23,13 +23,13 @@ void MirrorMode::next_plane() {
 std::string mirror_words(const volume::Grid& grid, const edit::Mirror& mirror) {
   if (!mirror.on()) return word(Word::mirror_off);
   constexpr Word kNames[] = {Word::sagittal, Word::coronal, Word::axial};
-  constexpr Word kSides[][2] = {{Word::mirror_right, Word::mirror_left},
-                                {Word::mirror_front, Word::mirror_back},
-                                {Word::mirror_below, Word::mirror_above}};
+  constexpr Word kNamesOfSides[][2] = {{Word::mirror_right, Word::mirror_left},
+                                       {Word::mirror_front, Word::mirror_back},
+                                       {Word::mirror_below, Word::mirror_above}};
   const auto plane = static_cast<std::size_t>(tick::plane_of(grid, mirror.axis));
   const double off = tick::offset_of(grid, mirror);
   if (std::abs(off) < 0.05e-3) return say(Word::mirror_middle, word(kNames[plane]));
-  return say(kSides[plane][off > 0 ? 1 : 0], word(kNames[plane]), 1e3 * std::abs(off));
+  return say(kNamesOfSides[plane][off > 0 ? 1 : 0], word(kNames[plane]), 1e3 * std::abs(off));
 }
 
 void show_mirror(render::Scene& scene, const volume::Grid& grid, const edit::Mirror& mirror) {

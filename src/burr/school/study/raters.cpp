@@ -72,19 +72,29 @@ std::vector<std::vector<Pair>> pairs_of(const Marks& marks, const std::string& a
   return out;
 }
 
-// The totals of the products that every rater marked in full.
-std::vector<std::vector<double>> totals_of(const Marks& marks, const RaterStudy& study) {
+// Raters with enough products for a figure; one who has just begun must not take the figures of the others away.
+std::vector<std::string> settled(const Marks& marks, const std::vector<std::string>& raters) {
+  std::vector<std::string> out;
+  for (const std::string& rater : raters)
+    if (static_cast<int>(marks.at(rater).size()) >= kFewestProducts) out.push_back(rater);
+  return out;
+}
+
+// The totals of the products that every one of these raters marked in full.
+std::vector<std::vector<double>> totals_of(const Marks& marks, const RaterStudy& study,
+                                           const std::vector<std::string>& raters) {
   std::vector<std::vector<double>> out;
-  for (const auto& [product, unused] : marks.begin()->second) {
+  if (raters.size() < 2) return out;
+  for (const auto& [product, unused] : marks.at(raters.front())) {
     std::vector<double> row;
-    for (const std::string& rater : study.raters) {
+    for (const std::string& rater : raters) {
       const auto found = marks.at(rater).find(product);
       if (found == marks.at(rater).end() || found->second.size() != study.items.size()) break;
       double met = 0;
       for (const auto& [item, mark] : found->second) met += mark ? 1 : 0;
       row.push_back(met);
     }
-    if (row.size() == study.raters.size()) out.push_back(std::move(row));
+    if (row.size() == raters.size()) out.push_back(std::move(row));
   }
   return out;
 }
@@ -125,18 +135,17 @@ Agreement agreement(const std::vector<std::vector<Pair>>& products, std::uint64_
   out.kappa = counts.kappa();
   out.ac1 = counts.ac1();
   out.prevalence_index = std::abs(counts.both - counts.neither) / counts.all();
-  const auto drawn = [&](people::RandomStream& random) {
+  // both figures of the same samples
+  std::vector<double> shares;
+  out.kappa_95 = resampled(kDraws, seed, [&](people::RandomStream& random) {
     Counts again;
     for (std::size_t n = 0; n < of_products.size(); ++n)
       again.add(of_products[static_cast<std::size_t>(random.below(out.products))]);
-    return again;
-  };
-  out.kappa_95 =
-      resampled(kDraws, seed, [&](people::RandomStream& random) { return drawn(random).kappa(); });
-  out.agreement_95 =
-      resampled(kDraws, seed, [&](people::RandomStream& random) -> std::optional<double> {
-        return drawn(random).agreement();
-      });
+    shares.push_back(again.agreement());
+    return again.kappa();
+  });
+  std::sort(shares.begin(), shares.end());
+  out.agreement_95 = {quantile(shares, 0.025), quantile(shares, 0.975)};
   return out;
 }
 
@@ -207,15 +216,16 @@ Result<RaterStudy> study_raters(const std::vector<Rating>& ratings, std::uint64_
         if (static_cast<int>(pairs.size()) >= kFewestProducts)
           out.pairs.push_back({item, out.raters[a], out.raters[b], agreement(pairs, seed)});
       }
-  const std::vector<std::vector<double>> totals = totals_of(marks, out);
+  const std::vector<std::string> raters = settled(marks, out.raters);
+  const std::vector<std::vector<double>> totals = totals_of(marks, out, raters);
   out.complete = static_cast<int>(totals.size());
   if (out.complete >= kFewestProducts) {
     out.icc = icc_a1(totals);
-    for (std::size_t a = 0; a < out.raters.size(); ++a)
-      for (std::size_t b = a + 1; b < out.raters.size(); ++b) {
+    for (std::size_t a = 0; a < raters.size(); ++a)
+      for (std::size_t b = a + 1; b < raters.size(); ++b) {
         std::vector<std::pair<double, double>> both;
         for (const std::vector<double>& row : totals) both.emplace_back(row[a], row[b]);
-        out.apart.push_back({out.raters[a], out.raters[b], bland_altman(both)});
+        out.apart.push_back({raters[a], raters[b], bland_altman(both)});
       }
   }
   out.ask_a_person = items_for_a_person(out);

@@ -70,7 +70,8 @@ struct TotalsApart {
 struct RaterStudy {
   std::vector<std::string> raters, items;
   std::vector<ItemAgreement> pairs;  // by item, then by pair of raters; then all items together
-  // Totals (items met) of products on which every rater marked every item.
+  // Totals (items met) of products on which every rater marked every item; raters with fewer than kFewestProducts products
+  // are left out.
   int complete = 0;
   std::optional<double> icc;
   std::vector<TotalsApart> apart;
