@@ -14,6 +14,7 @@
 #include "burr/school/decisions.h"
 #include "burr/school/export.h"
 #include "burr/school/forget.h"
+#include "burr/school/outbox.h"
 #include "burr/school/sessions.h"
 #include "burr/school/study/table.h"
 #include "burr/school/study_tables.h"
@@ -278,6 +279,7 @@ TEST_P(RatingsTest, ADecisionHasAPersonAReasonAStandardAndItsSessions) {
                               Decision{"otter-5", standard, "pass", "A. Berg", "because"}})
     EXPECT_FALSE(decide(store(), bad)) << bad.learner << " " << bad.outcome;
   EXPECT_EQ(count("SELECT count(*) FROM decision"), 0);
+  ASSERT_TRUE(set_home_page(store(), "https://centre.example.org"));
   const auto done = decide(store(), {"kestrel-27", standard, "fail", "A. Berg", "seen in the lab"});
   ASSERT_TRUE(done) << done.error().text;
   const auto kept = decisions(store(), "kestrel-27");
@@ -291,6 +293,12 @@ TEST_P(RatingsTest, ADecisionHasAPersonAReasonAStandardAndItsSessions) {
   EXPECT_EQ(count("SELECT count(*) FROM audit WHERE what = 'decision recorded' AND "
                   "subject = 'kestrel-27'"),
             1);
+  // the learning record store hears of it, and not who decided
+  const auto told =
+      store().database().rows("SELECT statement_json FROM outbox WHERE state = 'waiting'");
+  ASSERT_EQ(told->size(), 1U);
+  EXPECT_NE(text((*told)[0][0]).find("verbs/failed"), std::string::npos);
+  EXPECT_EQ(text((*told)[0][0]).find("Berg"), std::string::npos);
 }
 
 TEST_P(RatingsTest, ANameOfWhoSetAStandardIsForgottenToo) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "burr/school/outbox.h"
 #include "burr/school/ratings.h"
 #include "burr/school/study/standards.h"
 #include "burr/school/uuid.h"
@@ -211,6 +212,10 @@ Result<Decision> decide(Store& store, const Decision& decision) {
       {out.id, nlohmann::json(out.sessions).dump(), out.learner, out.standard, out.outcome,
        out.confirmed_by, out.reason, out.made_ms});
   if (!made) return made.error();
+  if (const Status queued = queue_decision(store, {out.learner, out.standard, out.outcome,
+                                                   out.confirmed_by, out.sessions, out.made_ms});
+      !queued)
+    return queued.error();
   if (const Status noted = store.note("decision recorded", out.learner); !noted)
     return noted.error();
   if (const Status done = change->commit(); !done) return done.error();
