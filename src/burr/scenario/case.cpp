@@ -174,24 +174,6 @@ bool names_no_file(const Case& work) {
   return fine(work.volume) && fine(work.rubric);
 }
 
-std::uint64_t text_hash(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return hash;
-}
-
-const char* word_of(Goal goal) {
-  switch (goal) {
-    case Goal::open:
-      break;
-    case Goal::expose:
-      return "expose";
-    case Goal::remove:
-      return "remove";
-  }
-  return "open";
-}
-
 std::string task_text(const Case& work) {
   std::string text = base::printable(work.title) + "\n";
   // line by line: base::printable() keeps a text of the file from moving the cursor
