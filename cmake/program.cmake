@@ -1,31 +1,9 @@
 # the program `burr`: one file per subcommand
 file(GLOB_RECURSE BURR_APP CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/*.cpp)
 if(BURR_APP)
-  # The texts of the window become part of the program: words/*.toml, one file for each language, English first.
-  # The keys of the English file are the enumerators of `Word`.
-  set(english ${PROJECT_SOURCE_DIR}/words/en.toml)
-  file(GLOB word_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/words/*.toml)
-  list(REMOVE_ITEM word_files ${english})
-  set(BURR_WORD_TEXTS "")
-  foreach(file ${english} ${word_files})
-    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-    get_filename_component(code ${file} NAME_WE)
-    file(READ ${file} text)
-    string(APPEND BURR_WORD_TEXTS "    {\"${code}\", R\"toml(${text})toml\"},\n")
-  endforeach()
-  file(READ ${english} text)
-  string(REGEX MATCHALL "\n[a-z][a-z_0-9]* =" keys "${text}")
-  set(BURR_WORD_KEYS "")
-  foreach(key ${keys})
-    string(REGEX REPLACE "[\n =]" "" key "${key}")
-    if(NOT key STREQUAL language)
-      string(APPEND BURR_WORD_KEYS "BURR_WORD(${key})\n")
-    endif()
-  endforeach()
-  configure_file(${PROJECT_SOURCE_DIR}/cmake/words.h.in ${CMAKE_BINARY_DIR}/words/word_keys.h @ONLY)
-  configure_file(${PROJECT_SOURCE_DIR}/cmake/words.cpp.in ${CMAKE_BINARY_DIR}/words/word_texts.cpp @ONLY)
+  include(${PROJECT_SOURCE_DIR}/cmake/words.cmake)
 
-  # ... and so does the instructor's page
+  # The instructor's page becomes part of the program.
   set(BURR_PAGE_FILES "")
   foreach(file index.html school.css school.mjs live.mjs rating.mjs replay.mjs words.mjs rating_words.mjs)
     set(path ${PROJECT_SOURCE_DIR}/web/school/${file})

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "burr/base/progress.h"
@@ -66,7 +68,9 @@ struct Core {
 
   std::unique_ptr<surface::Mesher> mesher;
   rt::ChangedBits* changed = nullptr;
-  std::deque<int> due;  // patches to mesh, oldest request first
+  rt::ChangedBits* changed_for_steps = nullptr;
+  std::vector<web::ChangedBrick> bricks;  // that have changed, for the steps
+  std::deque<int> due;                    // patches to mesh, oldest request first
   std::vector<bool> queued;
   std::vector<int> named;
   surface::Patch patch;
@@ -82,6 +86,7 @@ struct Core {
 };
 
 std::unique_ptr<Core> core;
+web::PageTask task;  // of the sessions that begin from now on
 
 // As Session::make caps them (sim/session.cpp).
 tick::ServoSettings settings_for(const device::DeviceSpec& spec) {
@@ -153,7 +158,27 @@ EMSCRIPTEN_KEEPALIVE int core_make(double voxel_mm) {
                                          made.formula, kReserveBricks, 1, quiet);
   if (!bone) return 0;
   take_bone(*core, std::move(*bone));
+  core->changed_for_steps = &core->bone->add_watcher();
   return 1;
+}
+
+// What the sessions that begin from now on are for: the case (its text, and what web/case.py has read of
+// it), the hash of its rubric in hexadecimal, the mode. Then core_spare() and core_target() for each.
+EMSCRIPTEN_KEEPALIVE void core_task(const char* text, const char* rubric_hash, const char* mode) {
+  task = {};
+  task.work_case.name = web::kCase;
+  task.work_case.text = text;
+  task.rubric_hash = std::strtoull(rubric_hash, nullptr, 16);
+  task.mode = record::mode_of(mode).value_or(record::Mode::free);
+}
+EMSCRIPTEN_KEEPALIVE void core_spare(const char* tissue) {
+  task.work_case.spare.emplace_back(tissue);
+}
+EMSCRIPTEN_KEEPALIVE void core_target(const char* tissue, const char* goal, double share) {
+  scenario::Target target{tissue, scenario::Goal::open, share};
+  for (const scenario::Goal one : {scenario::Goal::expose, scenario::Goal::remove})
+    if (std::string_view(goal) == scenario::word_of(one)) target.goal = one;
+  task.work_case.targets.push_back(std::move(target));
 }
 
 // Meshes the next patch that is due. nullptr: none is. Patches without triangles come too: they may
@@ -203,7 +228,7 @@ EMSCRIPTEN_KEEPALIVE void core_begin() {
   c.hand = std::make_unique<app::MouseHand>(above);
   const tick::ServoSettings settings = settings_for(c.hand->spec());
   c.servo = std::make_unique<tick::Servo>(*c.bone, *c.surface, *c.hand, settings);
-  auto recorder = web::PageRecorder::begin(*c.bone, settings, c.hand->spec(), c.voxel_mm);
+  auto recorder = web::PageRecorder::begin(*c.bone, settings, c.hand->spec(), c.voxel_mm, task);
   if (!recorder) {
     c.why = recorder.error().text;
     return;
@@ -212,11 +237,24 @@ EMSCRIPTEN_KEEPALIVE void core_begin() {
   c.servo->set_recorder_rings(c.recorder->rings());
 }
 
-// Completes the recording: the file PageRecorder::kFile. 0: core_why() says why there is none; it is empty when the
-// recording was completed before.
-EMSCRIPTEN_KEEPALIVE int core_finish_recording() {
+// Something beside the ticks, after the last one: kind is a word of record/course.h.
+EMSCRIPTEN_KEEPALIVE void core_note(const char* kind, const char* what, const char* value) {
+  using record::CourseKind;
+  if (core->recorder == nullptr) return;
+  for (int n = 0; n <= static_cast<int>(CourseKind::ended); ++n)
+    if (const auto one = static_cast<CourseKind>(n); std::string_view(kind) == record::word_of(one))
+      core->recorder->note({core->row.tick, one, what, {}, value});
+}
+
+// Completes the recording: the file PageRecorder::kFile. declared: the user says that the work is done. 0: core_why() says
+// why there is none; it is empty when the recording was completed before.
+EMSCRIPTEN_KEEPALIVE int core_finish_recording(int declared) {
   Core& c = *core;
   if (c.recorder == nullptr) return 0;
+  using record::Ending;
+  if (declared != 0) core_note(record::word_of(record::CourseKind::done), "", "");
+  core_note(record::word_of(record::CourseKind::ended), "",
+            record::word_of(declared != 0 ? Ending::declared_done : Ending::broke_off));
   const Status done = c.recorder->finish([&c] {
     if (c.servo->bricks_to_write() == 0) return false;
     c.servo->flush_bricks();
@@ -252,6 +290,22 @@ EMSCRIPTEN_KEEPALIVE void core_step(int ticks) {
 // The row of the last tick, tick::TickRow.
 EMSCRIPTEN_KEEPALIVE const void* core_row() { return &core->row; }
 EMSCRIPTEN_KEEPALIVE int core_row_size() { return sizeof(tick::TickRow); }
+
+// The bricks that have changed since the last call: web::ChangedBrick. Their number: core_changed_count().
+EMSCRIPTEN_KEEPALIVE const void* core_changed() {
+  Core& c = *core;
+  c.bricks.clear();
+  c.changed_for_steps->take_all([&c](std::size_t n) {
+    web::ChangedBrick& one = c.bricks.emplace_back();
+    one.brick = static_cast<std::int32_t>(n);
+    volume::BrickField field;
+    while (!c.bone->copy_brick(one.brick, field)) {  // nobody writes: it succeeds at once
+    }
+    std::copy(std::begin(field.voxel), std::end(field.voxel), one.field);
+  });
+  return c.bricks.data();
+}
+EMSCRIPTEN_KEEPALIVE int core_changed_count() { return static_cast<int>(core->bricks.size()); }
 
 // kind: tick::CommandKind.
 EMSCRIPTEN_KEEPALIVE void core_command(int kind, double value) {

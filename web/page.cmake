@@ -7,7 +7,7 @@
 # header-only libraries of this machine, alone: beside them in /usr/include lie the headers of another C library
 set(headers ${CMAKE_BINARY_DIR}/web/headers)
 file(MAKE_DIRECTORY ${headers})
-foreach(library fmt stb nlohmann)
+foreach(library fmt stb nlohmann toml++)
   if(NOT EXISTS /usr/include/${library})
     message(FATAL_ERROR "no ${library} in /usr/include: run scripts/install_packages.sh test")
   endif()
@@ -27,26 +27,86 @@ set(record pen mcap/mcap_writer schema session_info view course grid_json tool_j
   player player_notes assumed_tool mcap/mcap_reader)
 list(TRANSFORM record REPLACE "(.+)" "${src}/record/\\1.cpp")
 list(APPEND record ${src}/sim/session_words.cpp ${src}/scenario/recipe.cpp ${src}/scenario/case_text.cpp
-  ${src}/base/printable.cpp)
+  ${src}/workshop/spared.cpp ${src}/base/printable.cpp)
 file(GLOB web CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/*.cpp)
 
-add_library(burr_page_parts OBJECT ${render} ${phantom} ${record} ${hands} ${src}/workshop/work_view.cpp)
-target_include_directories(burr_page_parts PUBLIC ${PROJECT_SOURCE_DIR}/web/gaps ${PROJECT_SOURCE_DIR}/apps/burr)
-target_include_directories(burr_page_parts SYSTEM PUBLIC ${headers})
-target_compile_definitions(burr_page_parts PUBLIC FMT_HEADER_ONLY)
-target_compile_options(burr_page_parts PUBLIC "SHELL:-include ${PROJECT_SOURCE_DIR}/web/gaps/std_gaps.h")
-target_link_libraries(burr_page_parts PUBLIC burr_core burr_options)
+# burr_web_parts(NAME SOURCE...): sources of the rooms and of the program, compiled as they are
+function(burr_web_parts name)
+  add_library(${name} OBJECT ${ARGN})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/web/gaps ${PROJECT_SOURCE_DIR}/apps/burr)
+  target_include_directories(${name} SYSTEM PUBLIC ${headers})
+  target_compile_definitions(${name} PUBLIC FMT_HEADER_ONLY)
+  target_compile_options(${name} PUBLIC "SHELL:-include ${PROJECT_SOURCE_DIR}/web/gaps/std_gaps.h")
+  target_link_libraries(${name} PUBLIC burr_core burr_options)
+endfunction()
+burr_web_parts(burr_record_parts ${record})
+burr_web_parts(burr_phantom_parts ${phantom})  # who opens the page waits for the bone: made for speed, not for size
+target_compile_options(burr_record_parts PRIVATE -Oz)
+# What no session of the page runs: tools that are no balls, two hands, other methods of touch, pieces, the mirror.
+file(GLOB idle ${src}/haptics/six/*.cpp ${src}/haptics/baselines/*.cpp ${src}/edit/piece_*.cpp)
+list(FILTER idle EXCLUDE REGEX "_(scalar|avx2|avx512)\\.cpp$")
+list(APPEND idle ${src}/edit/tool_body.cpp ${src}/edit/mirror.cpp ${src}/edit/brush.cpp ${src}/tick/second_hand.cpp
+  ${src}/tick/held_piece.cpp ${src}/tick/mirror_plane.cpp ${src}/tick/shaped_cutting.cpp ${src}/tool/shape_grid.cpp
+  ${src}/tool/grid_of_mesh.cpp ${src}/tool/tool.cpp)
+set_source_files_properties(${idle} PROPERTIES COMPILE_OPTIONS "-Oz")
+burr_web_parts(burr_page_parts ${render} ${hands} ${src}/workshop/work_view.cpp)
+target_compile_options(burr_page_parts PRIVATE -Oz)
 
 # what stands in place of sources of the rooms (*_web.cpp), and what JavaScript calls
 add_executable(burr_page ${web})
 target_include_directories(burr_page PRIVATE ${PROJECT_SOURCE_DIR}/web)
-target_link_libraries(burr_page PRIVATE burr_page_parts)
+target_link_libraries(burr_page PRIVATE burr_page_parts burr_record_parts burr_phantom_parts)
 set(site ${CMAKE_BINARY_DIR}/site)
 set_target_properties(burr_page PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)
 target_link_options(burr_page PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sFORCE_FILESYSTEM=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2GB
   -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS)
+
+# The second module, burr_score: the steps of the case, its score and the report. It is loaded when the first cut is possible,
+# so that nobody waits for it. Its texts: the page's case, its rubric, the tools, the words of the window.
+include(${PROJECT_SOURCE_DIR}/cmake/words.cmake)
+function(burr_text variable name file)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text)
+  set(${variable} "    {\"${name}\", R\"toml(${text})toml\"},\n" PARENT_SCOPE)
+endfunction()
+burr_text(BURR_CASE_TEXTS temporal-bone ${PROJECT_SOURCE_DIR}/cases/temporal_bone.toml)
+burr_text(BURR_RUBRIC_TEXTS temporal-bone ${PROJECT_SOURCE_DIR}/rubrics/temporal_bone.toml)
+file(READ ${PROJECT_SOURCE_DIR}/tools/tools.toml BURR_TOOLS_TEXT)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/tools.toml)
+foreach(texts cases rubrics tools)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_${texts}.cpp.in ${CMAKE_BINARY_DIR}/built_in_${texts}.cpp @ONLY)
+endforeach()
+set(app ${PROJECT_SOURCE_DIR}/apps/burr)
+file(GLOB score CONFIGURE_DEPENDS ${src}/scoring/*.cpp ${src}/metrics/*.cpp ${src}/scenario/*.cpp ${app}/report/*.cpp)
+list(FILTER score EXCLUDE REGEX "/(report_pictures|recipe|case_text)\\.cpp$")
+file(GLOB bones CONFIGURE_DEPENDS ${src}/phantom/*.cpp)
+list(REMOVE_ITEM bones ${phantom})
+burr_web_parts(burr_score_parts ${score} ${bones} ${src}/workshop/label_check.cpp ${src}/workshop/allowed.cpp
+  ${src}/workshop/piece_plan.cpp ${src}/sim/move_pieces.cpp ${src}/base/text_file.cpp ${src}/base/markup.cpp
+  ${src}/base/base64.cpp ${app}/commands/score_words.cpp ${app}/commands/piece_words.cpp ${app}/window/mill/steps.cpp
+  ${app}/window/mill/suits.cpp ${app}/window/shell/words.cpp ${app}/window/shell/anatomy.cpp
+  ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/words/word_texts.cpp
+  ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
+target_compile_options(burr_score_parts PRIVATE -Os)
+target_include_directories(burr_score_parts PRIVATE ${CMAKE_BINARY_DIR}/words ${PROJECT_SOURCE_DIR}/third_party)
+file(GLOB score_api CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/score/*.cpp)
+set(web_dir ${PROJECT_SOURCE_DIR}/web)
+add_executable(burr_score ${score_api} ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp ${web_dir}/unzstd.cpp)
+target_include_directories(burr_score PRIVATE ${web_dir} ${CMAKE_BINARY_DIR}/words ${PROJECT_SOURCE_DIR}/third_party)
+target_link_libraries(burr_score PRIVATE burr_score_parts burr_record_parts burr_phantom_parts)
+set_target_properties(burr_score PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)
+target_link_options(burr_score PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=worker -sFORCE_FILESYSTEM=1
+  -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=4GB
+  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS)
+
+# The third module, burr_sound: a sound thread loads nothing and has no JavaScript of emscripten's.
+add_executable(burr_sound ${web_dir}/sound/sound_api.cpp ${src}/sound/synth.cpp ${src}/workshop/sound_tracker.cpp)
+target_compile_options(burr_sound PRIVATE "SHELL:-include ${PROJECT_SOURCE_DIR}/web/gaps/std_gaps.h")
+target_link_libraries(burr_sound PRIVATE burr_core burr_options)
+set_target_properties(burr_sound PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .wasm)
+target_link_options(burr_sound PRIVATE --no-entry -sSTANDALONE_WASM=1 -sINITIAL_MEMORY=8MB)
 
 # the folder for a host: the module, the pages, the words
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/pages/*)
@@ -55,7 +115,11 @@ find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 add_custom_command(OUTPUT ${site}/words.json
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${site}
   COMMAND ${CMAKE_COMMAND} -E copy_directory ${PROJECT_SOURCE_DIR}/web/pages ${site}
-  COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_BINARY_DIR}/web/burr_page.mjs ${CMAKE_BINARY_DIR}/web/burr_page.wasm ${site}
+  COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_BINARY_DIR}/web/burr_page.mjs ${CMAKE_BINARY_DIR}/web/burr_page.wasm
+    ${CMAKE_BINARY_DIR}/web/burr_score.mjs ${CMAKE_BINARY_DIR}/web/burr_score.wasm
+    ${CMAKE_BINARY_DIR}/web/burr_sound.wasm ${site}
+  COMMAND Python3::Interpreter ${web_dir}/case.py ${PROJECT_SOURCE_DIR}/cases/temporal_bone.toml
+    ${PROJECT_SOURCE_DIR}/rubrics/temporal_bone.toml ${site}/case.json
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/web/words.py ${PROJECT_SOURCE_DIR} ${site}/words.json
-  DEPENDS burr_page ${pages} ${word_files} ${PROJECT_SOURCE_DIR}/web/words.py COMMENT "The pages: ${site}" VERBATIM)
+  DEPENDS burr_page burr_score burr_sound ${pages} ${word_files} ${PROJECT_SOURCE_DIR}/web/words.py ${web_dir}/case.py COMMENT "The pages: ${site}" VERBATIM)
 add_custom_target(site ALL DEPENDS ${site}/words.json)

@@ -3,7 +3,9 @@
 #include "burr/record/identity.h"
 #include "burr/record/mcap/mcap_writer.h"
 #include "burr/render/scene.h"
+#include "burr/scenario/case.h"
 #include "burr/sim/session_words.h"
+#include "burr/workshop/spared.h"
 #include "work_of_page.h"
 
 namespace burr::web {
@@ -11,7 +13,7 @@ namespace burr::web {
 Result<std::unique_ptr<PageRecorder>> PageRecorder::begin(const volume::Bone& bone,
                                                           const tick::ServoSettings& settings,
                                                           const device::DeviceSpec& device,
-                                                          double voxel_mm) {
+                                                          double voxel_mm, const PageTask& task) {
   // what workshop::record() writes of a session on the desktop
   sim::SessionSettings session;
   session.servo = settings;
@@ -19,7 +21,13 @@ Result<std::unique_ptr<PageRecorder>> PageRecorder::begin(const volume::Bone& bo
   sim::describe(session, device, info);
   info.words["motion"] = "mouse";
   info.identity.emplace();
+  info.work_case = task.work_case;
+  info.work_case->text_hash = scenario::text_hash(task.work_case.text);
+  info.identity->mode = task.mode;
+  info.identity->case_hash = info.work_case->text_hash;
+  info.identity->rubric_hash = task.rubric_hash;
   info.identity->labels_hash = record::labels_hash(bone);
+  workshop::write_spared(workshop::to_spare(bone.tissues(), task.work_case.spare), info);
   const render::Burr drawn;
   info.shaft = record::Shaft{drawn.shaft_radius, drawn.shaft_length};
   info.volume.content_hash = bone.content_hash();

@@ -2,18 +2,29 @@
 // the module. One thread: rings and pen belong to it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
 #include "burr/base/result.h"
 #include "burr/device/hand.h"
+#include "burr/record/course.h"
+#include "burr/record/identity.h"
 #include "burr/record/pen.h"
+#include "burr/record/session_info.h"
 #include "burr/rt/ring.h"
 #include "burr/tick/outbox.h"
 #include "burr/tick/settings.h"
 #include "burr/volume/bone.h"
 
 namespace burr::web {
+
+// What the session is for.
+struct PageTask {
+  record::CaseInfo work_case;  // its hash is not needed
+  record::Mode mode = record::Mode::free;
+  std::uint64_t rubric_hash = 0;
+};
 
 class PageRecorder {
  public:
@@ -23,12 +34,16 @@ class PageRecorder {
   // settings: as the servo has them.
   [[nodiscard]] static Result<std::unique_ptr<PageRecorder>> begin(
       const volume::Bone& bone, const tick::ServoSettings& settings,
-      const device::DeviceSpec& device, double voxel_mm);
+      const device::DeviceSpec& device, double voxel_mm, const PageTask& task);
 
   [[nodiscard]] tick::RecorderRings rings() { return {&ticks_, &commands_, &bricks_, nullptr}; }
   // Writes what waits. Call it at least every kDue ticks.
   static constexpr int kDue = 200;
   [[nodiscard]] Status drain() { return pen_->drain(); }
+  // A step, a mark, the end: beside the ticks.
+  void note(const record::CourseEvent& event) {
+    if (record::check(event).ok()) pen_->notes().put({false, event.tick, record::to_json(event)});
+  }
   // The file is complete after this; nothing more can be recorded. flush: the servo's last bricks.
   template <class Flush>
   [[nodiscard]] Status finish(const Flush& flush) {

@@ -12,7 +12,8 @@ import tomllib
 
 # keys of words/*.toml that the page shows
 SHARED = """language force speed burr removed ticks ticks_good ticks_lost undo redo reset smaller larger slower faster
-undone redone back_to_start press pressing lifted time""".split()
+undone redone back_to_start press pressing lifted time
+mode_title mode_free mode_learn mode_practise mode_exam done_button""".split()
 
 
 def main():

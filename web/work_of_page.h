@@ -4,8 +4,11 @@
 // Units: SI. Frame: world (LPS).
 #pragma once
 
+#include <cstdint>
+
 #include "burr/math/vec3.h"
 #include "burr/phantom/phantoms.h"
+#include "burr/volume/bone.h"
 
 namespace burr::web {
 
@@ -15,6 +18,14 @@ inline constexpr double kRate = 1000;          // of ticks [Hz]
 // cases/temporal_bone.toml: where its work begins, and into what direction
 inline math::Vec3 work_at() { return {-2e-3, 11e-3, 5e-3}; }
 inline math::Vec3 work_into() { return {1, 0, 0}; }
+
+inline constexpr const char* kCase = "temporal-bone";
+
+// A brick that was cut, on its way from the worker that ticks to the one that looks at the steps.
+struct ChangedBrick {
+  std::int32_t brick;
+  volume::Field field[volume::kBrickVoxels];
+};
 
 // Its bone.
 inline constexpr const char* kPhantom = "phantom:temporal-bone?ridge-dura";

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The page, burr in a browser: opens, mills, records, in Chromium without a screen (web/tests/page_test.py). The page is the
+# The page, burr in a browser: opens, mills, records, in Chromium without a screen (web/tests/page_test.py), and
+# has the course of a session: steps, score, report, sound (web/tests/course_test.py). The page is the
 # one that scripts/checks/portable.sh web has built.
 #
 #     scripts/checks/page.sh BUILD [PICTURES]      PICTURES: a folder that keeps the screenshots
@@ -27,3 +28,4 @@ touch "$out/mine"
 if "$build/burr" web --out "$out" 2>"$out/said"; then echo "page: burr web wrote into a folder with other files"; exit 1; fi
 grep -q "holds other files" "$out/said"
 python3 web/tests/page_test.py "$out/page" "$build/burr" ${2:+"$2"}
+python3 web/tests/course_test.py "$out/page" "$build/burr" ${2:+"$2"}

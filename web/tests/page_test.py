@@ -17,6 +17,7 @@ import time
 import tomllib
 
 from chromium import Chromium, Site
+from hand import PARK, POINTER
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITE, BURR = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
@@ -25,39 +26,6 @@ WAIT = 300  # [s]
 LEAST_TICKS = 20000
 # Of the picture around the burr, in heights of the picture: the shade of a new edge reaches so far, and dust.
 REACH = 0.22
-
-# A pointer that presses and circles; then it goes to the corner. Events of the page's own: those of the browser wait for
-# a picture each, and a machine without a graphics card draws few.
-POINTER = """(async (milliseconds) => {
-  const canvas = document.getElementById('picture'), box = canvas.getBoundingClientRect();
-  const send = (type, x, y, buttons) => canvas.dispatchEvent(new PointerEvent(type, {clientX: box.left + x,
-      clientY: box.top + y, button: type === 'pointermove' ? -1 : 0, buttons, pointerId: 1, pointerType: 'mouse',
-      bubbles: true, cancelable: true}));
-  const wait = (ms) => new Promise((go) => setTimeout(go, ms));
-  const x = 0.5 * box.width, y = 0.5 * box.height;
-  send('pointermove', x, y, 0);
-  await wait(1500);
-  const place = burr.place();
-  send('pointerdown', x, y, 1);
-  const begun = burr.state.ticks;
-  const end = performance.now() + 120000;
-  while (burr.state.ticks < begun + milliseconds && performance.now() < end) {
-    const turn = performance.now() / 400;
-    send('pointermove', x + 8 * Math.cos(turn), y + 8 * Math.sin(turn), 1);
-    await wait(16);
-  }
-  const pressed = {...burr.figures};
-  send('pointerup', x, y, 0);
-  await wait(300);
-  send('pointermove', 4, box.height - 4, 0);
-  await wait(1500);
-  return {place, pressed};
-})"""
-PARK = """(() => {
-  const canvas = document.getElementById('picture'), box = canvas.getBoundingClientRect();
-  canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + 4, clientY: box.top + box.height - 4,
-      button: -1, pointerId: 1, pointerType: 'mouse', bubbles: true}));
-})()"""
 
 bad = []
 
@@ -84,7 +52,7 @@ def at_rest(page):
 
 
 def mill(page):
-    page.wait("window.burr && burr.ready", WAIT)
+    page.wait("window.burr && burr.ready && burr.loaded", WAIT)
     print("times [ms]:", page.run("JSON.stringify(burr.times)"), "by", page.run("burr.gpu"))
     check(page.run("burr.times.first_picture > 0 && burr.pictures > 0"), "the first picture is there")
     check(page.run("!crossOriginIsolated"), "it works without COOP and COEP")

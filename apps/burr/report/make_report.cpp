@@ -6,13 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <future>
 #include <numbers>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "burr/base/version.h"
+#include "burr/rt/thread.h"
 #include "burr/scenario/case.h"
 #include "report/advice.h"
 #include "report/evidence.h"
@@ -343,7 +343,9 @@ Result<Report> report_on(Scored& scored, const ReportSettings& settings, Progres
   if (settings.beside != nullptr)
     if (const Status same = comparable(scored, *settings.beside); !same) return same.error();
   // a recording may be large; meanwhile the pictures are drawn
-  auto of_file = std::async(std::launch::async, file_hash, scored.judged.player->path());
+  std::string of_file;
+  rt::Thread hashes({.name = "hash", .stack_bytes = 0},
+                    [&of_file, path = scored.judged.player->path()] { of_file = file_hash(path); });
   Report report = common(scored, settings);
   report.title = word(Word::report_title);
   report.unfinished = unfinished_of(scored.score);
@@ -370,7 +372,8 @@ Result<Report> report_on(Scored& scored, const ReportSettings& settings, Progres
                                           report, false, settings, progress);
         !drawn)
       return drawn.error();
-  report.hashes = hashes_of(scored, of_file.get());
+  hashes.join();
+  report.hashes = hashes_of(scored, of_file);
   return report;
 }
 

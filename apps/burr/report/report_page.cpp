@@ -27,7 +27,7 @@ th { color: #555; font-weight: 600; font-size: .9em } thead { display: table-hea
 .tag { border: 1px solid #b04a00; color: #b04a00; border-radius: .6em; padding: 0 .4em; font-size: .8em; white-space: nowrap }
 .default { color: #777; font-size: .85em; font-style: italic; white-space: nowrap } .note { color: #555 }
 figure { display: inline-block; margin: .2em .4em .2em 0; vertical-align: top } figcaption { font-size: .82em; color: #555 } img { display: block; max-width: 100%; height: auto }
-.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: .5em } .sides figure { margin: 0 } .proof { float: right; margin-left: .8em; width: 180px } .proof > svg { display: block } .proof figure { width: 180px; margin: .1em 0 }
+.sides { display: grid; grid-template-columns: repeat(4, 1fr); gap: .5em } .sides.one { grid-template-columns: minmax(0, 60%) } .sides figure { margin: 0 } .proof { float: right; margin-left: .8em; width: 180px } .proof > svg { display: block } .proof figure { width: 180px; margin: .1em 0 }
 .strip svg { display: block } .why { border-left: 3px solid #0060a0; padding-left: 5px; box-sizing: border-box } .why svg { width: 100% }
 .legend span { display: inline-block; margin-right: 1.2em; font-size: .88em } .legend i { display: inline-block; width: .9em; height: .9em; border: 1px solid #777; margin-right: .35em; vertical-align: -.1em }
 svg { max-width: 100%; height: auto; vertical-align: middle } .totals { display: grid; grid-template-columns: 1fr 1fr; gap: .3em 2em } .totals b { font-size: 1.15em }
@@ -82,6 +82,7 @@ std::string figure_html(const ReportPicture& picture) {
 }
 
 std::string legend_html(const Legend& legend) {
+  if (legend.empty()) return {};
   std::string html = "<p class=\"legend\">";
   for (const auto& [text, colour] : legend)
     html += fmt::format("<span><i style=\"background:{}\"></i>{}</span>", markup_text(colour),
@@ -248,7 +249,7 @@ std::string sides_html(const Report& report) {
                   legend_html(report.sides_legend));
   for (const ReportSides& side : report.sides) {
     if (!side.whose.empty()) html += "<p><b>" + markup_text(side.whose) + "</b></p>\n";
-    html += "<div class=\"sides\">\n";
+    html += side.pictures.size() == 1 ? "<div class=\"sides one\">\n" : "<div class=\"sides\">\n";
     for (const ReportPicture& picture : side.pictures) html += figure_html(picture);
     html += "</div>\n";
   }

@@ -11,6 +11,7 @@
 #include "burr/render/soft_scene.h"
 #include "burr/volume/sample.h"
 #include "burr/workshop/work_view.h"
+#include "report/report_colours.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -26,17 +27,6 @@ constexpr double kAside = 40 * std::numbers::pi / 180;
 constexpr double kSectionHigh = 18e-3;  // height of a section [m]
 constexpr double kMissed = 0.5e-3;      // bone deeper in a region than this is missed [m]
 constexpr double kExcess = 0.25e-3;     // a cut deeper in what must stay than this is too much [m]
-
-// Okabe and Ito's, which colour-blind people can tell apart; violet is darker than both others.
-constexpr Colour kGoodColour = {0.00F, 0.62F, 0.45F}, kLeftColour = {0.58F, 0.36F, 0.70F},
-                 kBareColour = {0.84F, 0.37F, 0.00F}, kCutColour = {0.97F, 0.93F, 0.80F};
-
-std::string hex_of(const Colour& colour) {
-  const auto part = [&](std::size_t n) {
-    return static_cast<int>(std::lround(255 * static_cast<double>(colour[n])));
-  };
-  return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
-}
 
 // Around the centres of the voxels that lost half a voxel or more.
 math::Aabb removed_box(const volume::Bone& before, const volume::Bone& after) {
@@ -96,17 +86,6 @@ Result<ReportPicture> as_picture(const render::Image& image, std::string caption
 }
 
 }  // namespace
-
-Legend sides_legend() {
-  return {{word(Word::report_legend_cut), hex_of(kCutColour)},
-          {word(Word::report_legend_missed), hex_of(kLeftColour)},
-          {word(Word::report_legend_excess), hex_of(kBareColour)}};
-}
-Legend spots_legend() {
-  return {{word(Word::report_legend_good), hex_of(kGoodColour)},
-          {word(Word::report_legend_left), hex_of(kLeftColour)},
-          {word(Word::report_legend_bare), hex_of(kBareColour)}};
-}
 
 ReportArtist::ReportArtist(Scored& scored)
     : scored_(scored), cavity_(removed_box(*scored.before, *scored.after)) {

@@ -1,7 +1,6 @@
-// Where no thread can go first (a browser). rt/thread.cpp is the one for Linux.
-#include <thread>
+// Where there are no threads (a page in a browser): the caller does the work itself, at once, so nothing
+// may wait for what another thread does. rt/thread.cpp is the one for Linux.
 #include <utility>
-#include <vector>
 
 #include "burr/rt/thread.h"
 
@@ -9,29 +8,23 @@ namespace burr::rt {
 
 struct Thread::Work {
   ThreadGrant grant;
-  std::thread thread;
 };
 
 Thread::Thread(const ThreadRequest& request, std::function<void()> work)
     : work_(std::make_unique<Work>()) {
-  work_->grant.sentence =
-      request.name + ": ordinary thread, because this system has no real-time threads";
-  work_->thread = std::thread(std::move(work));
+  work_->grant.sentence = request.name + ": done by the caller, because this system has no threads";
+  work();
 }
 
-Thread::~Thread() { join(); }
+Thread::~Thread() = default;
 
-void Thread::join() {
-  if (work_->thread.joinable()) work_->thread.join();
+void Thread::join() {  // the work was done before the constructor returned
 }
 
 const ThreadGrant& Thread::grant() const { return work_->grant; }
 
 void on_threads(int count, const std::function<void(int)>& work) {
-  std::vector<std::thread> others;
-  for (int n = 1; n < count; ++n) others.emplace_back([&work, n] { work(n); });
-  work(0);
-  for (std::thread& other : others) other.join();
+  for (int n = 0; n < count; ++n) work(n);
 }
 
 NormalPriority::NormalPriority() = default;

@@ -3,6 +3,8 @@
 import {compile, start, trouble} from '../common/burr.js';
 import {fit, wanted_size} from '../common/canvas.js';
 import {show} from '../common/skin.js';
+import {Course} from './course.js';
+import {Sound} from './sound.js';
 import * as words from '../common/words.js';
 
 const {word, number} = words;
@@ -13,6 +15,8 @@ const Command = {spindle_speed: 0, burr_radius: 1, undo: 5, redo: 6, reset: 7};
 const kSizes = [0.6, 0.8, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 6.5, 7];  // [mm]
 const kRpmStep = 5000, kRpmMost = 80000;
 const kTurn = 0.006;                   // of the view, per pixel of the pointer  [rad]
+const kTicks = 1000;                   // a second
+const kModes = ['free', 'learn', 'practise', 'exam'];
 const kLeastDepth = 0.5, kMostDepth = 6;  // of a press  [mm]
 const kMostForce = 3.3;                // of the hand; the bar is full there  [N]
 
@@ -21,6 +25,7 @@ const canvas = $('picture');
 
 // What the tests and the curious read.
 const burr = window.burr = {
+  mode: 'free',
   times: {},  // ms since the page was asked for
   pictures: 0,
   state: {ticks: 0, left_out: 0, p50: 0, p99: 0},
@@ -45,9 +50,23 @@ let dirty = true;       // the picture must be drawn
 let speed = 80000, size = 5;  // as they were asked for
 let states = 0;         // since another size was asked for
 let work = 0;           // number of the bone
+let about = null;       // the case, case.json
+let sounds = null;      // the sound is loaded, or on its way
+let pictured = null;    // who waits for a picture of the canvas
 let before = 0, drew = false;
 let skin_whole = false;
 const waiting = [];     // patches and parts for the view
+
+const course = new Course({
+  tell: (message) => worker.postMessage(message),
+  say: (text, for_ms) => say(text, for_ms),
+  figures: () => burr.figures,
+  picture: () => new Promise((go) => { pictured = go; dirty = true; }),
+  keep: (bytes, name, type) => keep(bytes, name, type),
+  changed: () => dress_course(),
+});
+burr.course = course;
+const sound = burr.sound = new Sound();
 
 main().catch(fail);
 
@@ -60,8 +79,9 @@ async function main() {
     pressed = false;
     worker.postMessage({kind: 'pause', on: document.hidden});
   });
-  const [module] = await Promise.all([compile(), words.load()]);
-  compiled = module;
+  const asked = new URLSearchParams(location.search).get('mode');
+  if (kModes.includes(asked)) burr.mode = asked;
+  [compiled, , about] = await Promise.all([compile(), words.load(), load_case()]);
   mark('compiled');
   begin();
   dress();
@@ -75,10 +95,16 @@ async function main() {
   requestAnimationFrame(draw);
 }
 
+async function load_case() {
+  const answer = await fetch(new URL('../case.json', import.meta.url));
+  if (!answer.ok) throw new Error(`case.json: ${answer.status}`);
+  return answer.json();
+}
+
 // The worker begins with a bone, the first one or another.
 function begin() {
   say(word('shaping'));
-  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel, work: ++work, hidden: document.hidden});
+  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel, work: ++work, hidden: document.hidden, task: {about, mode: burr.mode}});
 }
 
 // The page stops, and its last sentence stays.
@@ -113,9 +139,12 @@ function hear(data) {
       view?.view_anew();
       mark('ready');
       say(word('drag_mill') + '. ' + word('how_mouse'), 12000);
+      course.begin(burr.voxel, burr.mode, work);
+      sounds ??= sound.load().then(dress_sound);
       break;
     case 'state':
       waiting.push(...data.patches, {row: data.row});
+      sound.row(data.row);
       burr.state = {ticks: data.ticks, left_out: data.left_out, p50: data.p50, p99: data.p99};
       answered = false;
       ++states;
@@ -123,8 +152,12 @@ function hear(data) {
     case 'hashes':
       burr.hashes = data;
       break;
+    case 'changed':
+      course.look(data.bytes);
+      break;
     case 'saved':
-      if (data.file) keep(data.file);
+      if (course.takes(data)) break;
+      if (data.file) keep(data.file, 'burr.mcap', 'application/octet-stream'), say(word('saved'), 12000);
       else say(data.why ? word('not_saved', data.why) : word('saved_before'));
       break;
     case 'broken':
@@ -152,11 +185,16 @@ function draw(now) {
     if (burr.ready) point();
     const took = drew ? now - before : 0;  // of the picture before, if the one after it follows at once
     before = now;
-    drew = dirty || fresh || view.view_refined() === 0;
+    drew = dirty || fresh || pictured !== null || view.view_refined() === 0;
     if (!drew) return;
     dirty = false;
     if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) throw new Error(view.text(view.view_why()));
     ++burr.pictures;
+    if (pictured && view.view_refined() === 1) {  // now: later the canvas is empty
+      const go = pictured;
+      pictured = null;
+      canvas.toBlob(async (blob) => go({png: new Uint8Array(await blob.arrayBuffer()), width: canvas.width, height: canvas.height}));
+    }
     if (skin_whole || burr.pictures > 1 || fresh) mark('first_picture');
     if (skin_whole) mark('whole_picture');
     if (fresh) write();
@@ -205,9 +243,9 @@ function command(what, value = 0) {
   if (burr.ready) worker.postMessage({kind: 'command', what, value});
 }
 const acts = {
-  undo: () => { command(Command.undo); say(word('undone'), 3000); },
-  redo: () => { command(Command.redo); say(word('redone'), 3000); },
-  reset: () => { command(Command.reset); say(word('back_to_start'), 3000); },
+  undo: () => go_back(Command.undo, 'undone'),
+  redo: () => go_back(Command.redo, 'redone'),
+  reset: () => go_back(Command.reset, 'back_to_start'),
   smaller: () => resize(-1),
   larger: () => resize(1),
   slower: () => change_speed(-kRpmStep),
@@ -216,22 +254,33 @@ const acts = {
   more: () => change_depth(1.25),
   home: () => { view.view_home(); dirty = true; },
   finer: begin_finer,
+  finish: () => course.ask_done(),
+  show_steps: () => course.show_steps(),
+  sound: () => sound.toggle(kTicks).then(dress_sound),
+  step_done: () => course.step_done(),
   save: () => {
     if (!burr.ready) return;
+    if (course.save()) return;
     $('save').disabled = true;
-    worker.postMessage({kind: 'save'});
+    worker.postMessage({kind: 'save', declared: false});
   },
 };
 
-// Gives the recording to the user as a file. It goes nowhere else.
-function keep(bytes) {
-  burr.saved = bytes.length;
+// In an exam nothing comes back.
+function go_back(what, key) {
+  if (course.refuses_back()) return;
+  command(what);
+  say(word(key), 3000);
+}
+
+// Gives a file to the user. It goes nowhere else.
+function keep(bytes, name, type) {
+  if (name === 'burr.mcap') burr.saved = bytes.length;
   const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([bytes], {type: 'application/octet-stream'}));
-  link.download = 'burr.mcap';
+  link.href = URL.createObjectURL(new Blob([bytes], {type}));
+  link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);  // the browser has taken it by then
-  say(word('saved'), 12000);
 }
 
 // the servo refuses a burr of less than four voxels, and one for which there is no room
@@ -255,6 +304,11 @@ function change_depth(factor) {
 // The same bone with finer voxels, in the same worker.
 function begin_finer() {
   burr.voxel = burr.voxel === 0.5 ? 0.25 : 0.5;
+  begin_anew();
+}
+
+function begin_anew() {
+  course.close();
   burr.ready = skin_whole = false;
   burr.times = {};
   waiting.length = 0;
@@ -271,7 +325,7 @@ function begin_finer() {
 
 const keys = {
   u: 'undo', y: 'redo', r: 'reset', '[': 'smaller', ']': 'larger', PageDown: 'smaller', PageUp: 'larger', ',': 'slower',
-  '.': 'faster', '+': 'more', '=': 'more', '-': 'less', f: 'home',
+  '.': 'faster', '+': 'more', '=': 'more', '-': 'less', f: 'home', j: 'step_done', o: 'show_steps', m: 'sound',
 };
 
 function listen() {
@@ -341,7 +395,9 @@ function listen() {
   }, {passive: false});
   window.addEventListener('blur', () => { pressed = false; });
   window.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLSelectElement) return;
+    if (event.ctrlKey && event.key === 'Enter') return void course.ask_done();
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLSelectElement || event.target instanceof HTMLInputElement) return;
+    if (course.covers()) return;  // its buttons have the keys
     const arrow = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
     if (arrow) {
       view.view_orbit(0.1 * arrow[0], 0.1 * arrow[1]);
@@ -360,11 +416,38 @@ function listen() {
   $('language').addEventListener('change', () => {
     words.choose($('language').value);
     dress();
+    course.speak();
   });
+  $('volume').addEventListener('input', () => sound.volume($('volume').valueAsNumber));
+  $('mode').addEventListener('change', () => {
+    burr.mode = $('mode').value;
+    begin_anew();
+  });
+}
+
+// What the course of the session allows now.
+function dress_course() {
+  $('finish').disabled = !course.can_finish();
+  $('show_steps').hidden = !course.offers_steps();
+  const back = course.goes_back();
+  for (const id of ['undo', 'redo', 'reset']) $(id).disabled = !back;
+  Promise.resolve(sounds).then(() => { burr.loaded = course.loaded; });
+  mark_score();
+}
+const mark_score = () => { if (course.loaded) mark('score'); };
+
+function dress_sound() {
+  $('sound').disabled = $('volume').disabled = sound.compiled === undefined || sound.trouble !== '';
+  $('sound').textContent = word(sound.on ? 'mute' : 'sound_on');
+  $('sound').title = sound.trouble;
+  $('sound').setAttribute('aria-pressed', String(sound.on));
+  $('volume').title = word('volume');
+  $('volume').setAttribute('aria-label', word('volume'));
 }
 
 // The words of the page in the present language.
 function dress() {
+  dress_sound();
   for (const one of document.querySelectorAll('[data-word]')) one.textContent = word(one.dataset.word);
   for (const id of ['undo', 'redo', 'reset']) $(id).textContent = word(id);
   canvas.setAttribute('aria-label', word('bone'));
@@ -385,6 +468,18 @@ function dress() {
     option.value = code;
     option.textContent = name;
     option.selected = code === words.present();
+    return option;
+  }));
+  $('finish').textContent = word('done_button');
+  $('finish').title = `${word('done_button')} (Ctrl + Enter)`;
+  $('show_steps').textContent = word('steps');
+  $('mode').title = word('mode_tip');
+  $('mode').setAttribute('aria-label', word('mode_title'));
+  $('mode').replaceChildren(...kModes.map((mode) => {
+    const option = document.createElement('option');
+    option.value = mode;
+    option.textContent = word(`mode_${mode}`);
+    option.selected = mode === burr.mode;
     return option;
   }));
   $('depth').textContent = number(depth, 1);

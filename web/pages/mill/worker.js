@@ -3,10 +3,10 @@
 // All ticks that are due are computed together, every 4 ms or so: a mouse has no motors, so nobody
 // feels that. Ticks that a busy machine has missed are left out and counted, never made up for.
 //
-//     page -> worker   start {compiled, voxel, work, hidden}, next {aim}, command {what, value}, pause {on}, hashes,
-//                      save, measure
+//     page -> worker   start {compiled, voxel, work, hidden, task}, next {aim}, command {what, value}, pause {on}, hashes,
+//                      note {kind, what, value}, changed, save {declared}, measure
 //     worker -> page   shaped, skin {patches}, skin_done, soft {parts}, ready, state {row, patches, ...}, hashes,
-//                      saved {file} or {why}, broken {text, why, parts}
+//                      changed {bytes}, saved {file} or {why}, broken {text, why, parts}
 //
 // The page answers every state with `next`; until then none is sent, so none waits in a queue. A second `start` begins
 // anew with another bone: the worker stays, so nothing is fetched again. Each bone has a number, `work`, and each message
@@ -16,6 +16,7 @@ import {Skin} from '../common/skin.js';
 
 const kMostTicks = 50;    // in one beat
 const kSkinMs = 4;        // for the surface, in each beat
+const kBrick = 1028;      // bytes; web::ChangedBrick
 
 let burr = null, skin = null;
 let paused = false, wanted = true, running = false;
@@ -58,8 +59,14 @@ function take(data) {
     tell({kind: 'hashes', tick, bone, ticks: done});
   } else if (data.kind === 'measure') {
     clear_times();
+  } else if (data.kind === 'note') {
+    burr.with_texts([data.what.kind, data.what.what, data.what.value], burr.core_note);
+  } else if (data.kind === 'changed') {
+    const at = burr.core_changed();
+    const bytes = burr.bytes(at, burr.core_changed_count() * kBrick).slice();
+    tell({kind: 'changed', bytes}, [bytes.buffer]);
   } else if (data.kind === 'save') {
-    save();
+    save(data.declared);
   }
 }
 
@@ -72,8 +79,10 @@ function pause(on) {
 }
 
 // Completes the recording, which lies in the module's own memory, and hands it over.
-function save() {
-  if (burr.core_finish_recording() === 0) {
+function save(declared) {
+  // the work is done: nothing is cut any more
+  if (declared) running = false;
+  if (burr.core_finish_recording(declared ? 1 : 0) === 0) {
     tell({kind: 'saved', why: burr.text(burr.core_why())});
     return;
   }
@@ -99,11 +108,20 @@ async function open(from) {
   skin = new Skin(burr, work);
   await skin.send_whole(() => work === from.work);
   if (work !== from.work) return;
+  begin_task(from.task);
   burr.core_begin();
   running = true;
   begin_clock();
   tell({kind: 'ready'});
   beat();
+}
+
+// What the recording says about the session.
+function begin_task({about, mode}) {
+  burr.with_texts([about.text, about.rubric_hash, mode], burr.core_task);
+  for (const one of about.spare) burr.with_texts([one], burr.core_spare);
+  for (const one of about.targets)
+    burr.with_texts([one.tissue, one.goal], (tissue, goal) => burr.core_target(tissue, goal, one.share));
 }
 
 function begin_clock() {

@@ -8,6 +8,7 @@
 #include "window/mill/mill.h"
 #include "window/mill/see_through.h"
 #include "window/mill/steps_panel.h"
+#include "window/mill/suits.h"
 #include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "burr/scenario/rack.h"
 #include "window/mill/hud.h"
 #include "window/mill/side_panel.h"
+#include "window/mill/suits.h"
 #include "window/shell/anatomy.h"
 #include "window/shell/words.h"
 
@@ -90,19 +90,6 @@ std::optional<std::size_t> rows(Ui& ui, const Steps& steps, float x, float y, st
 }
 
 }  // namespace
-
-std::string suits(const scenario::Step& step) {
-  if (const scenario::RackTool* tool = scenario::built_in_rack().find(step.tool); tool != nullptr)
-    return tool->title.in(spoken().code);
-  std::string text;
-  if (step.kind)
-    text = word(*step.kind == tool::BurrKind::diamond ? Word::steps_diamond : Word::steps_cutting);
-  if (step.diameter) {
-    if (!text.empty()) text += ", ";
-    text += say(Word::steps_sizes, 1e3 * step.diameter->first, 1e3 * step.diameter->second);
-  }
-  return text;
-}
 
 StepsPressed draw_steps(Ui& ui, const Steps& steps, bool offers_light, bool lit) {
   StepsPressed pressed;

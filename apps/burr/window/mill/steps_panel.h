@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "burr/scenario/lesson.h"
 #include "window/mill/steps.h"
 #include "window/shell/ui.h"
 
@@ -21,9 +20,6 @@ struct StepsPressed {
 
 // offers_light: there is a button for it. lit: it is lit now.
 [[nodiscard]] StepsPressed draw_steps(Ui& ui, const Steps& steps, bool offers_light, bool lit);
-
-// The tool that suits a step, "diamond burr, 2 to 4 mm", in the user's language; "": none is named.
-[[nodiscard]] std::string suits(const scenario::Step& step);
 
 // The button with which the user declares the work done, at the top right. column: width at the right
 // that slices cover [pixel]. True: it was pressed.

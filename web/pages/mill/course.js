@@ -1,0 +1,315 @@
+// The course of a session on the page: the steps of the case beside the picture, and at the end the question, the user's own
+// marks, what burr found, and the report. What is said and decided comes from score_worker.js, which runs the window's code.
+import * as words from '../common/words.js';
+
+const {word} = words;
+const kRest = 3000;  // from the end of a measurement to the next [ms], as in the window
+
+const $ = (id) => document.getElementById(id);
+
+// make('p', {class: 'dim'}, 'text', child, ...)
+function make(tag, with_what = {}, ...inside) {
+  const one = document.createElement(tag);
+  for (const [name, value] of Object.entries(with_what)) {
+    if (name === 'click') one.addEventListener('click', value);
+    else if (typeof value === 'boolean') one.toggleAttribute(name, value);
+    else one.setAttribute(name, value);
+  }
+  one.append(...inside.filter((part) => part !== null && part !== ''));
+  return one;
+}
+const button = (text, click, more = {}) => make('button', {type: 'button', click, ...more}, text);
+const kSigns = {good: '✓ ', bad: '✗ ', open: '○ ', none: ''};
+const mark_of = ({word: text, tone}) => make('span', {class: tone}, kSigns[tone] + text);
+
+export class Course {
+  // host: tell(message for the worker that ticks), say(text, ms), figures(), picture(), keep(bytes, name, type), changed()
+  constructor(host) {
+    this.host = host;
+    this.worker = null;
+    this.loaded = false;  // the worker is there, and asks for nothing any more
+    this.texts = {};      // of the window, by key
+    this.clear();
+  }
+
+  clear() {
+    this.steps = null;
+    this.shown = false;
+    this.questions = [];
+    this.marks = new Map();  // own: id -> "met", "unmet", "unknown"
+    this.found = null;       // what burr found: {report, score}
+    this.file = null;        // the recording, when the work is done
+    this.page = null;        // of the review: "own", "waits", "found", "exam"
+    this.looking = false;
+    this.trouble = '';
+    clearTimeout(this.timer);
+  }
+
+  // Of a bone that is ready, before its first cut.
+  begin(voxel, mode, work) {
+    this.work = work;
+    this.mode = mode;
+    if (this.worker === null) {
+      this.worker = new Worker(new URL('score_worker.js', import.meta.url), {type: 'module'});
+      this.worker.onmessage = ({data}) => this.hear(data);
+      this.worker.onerror = (what) => this.fail(what.message || 'worker');
+    }
+    this.post({kind: 'open', voxel, mode, language: words.present()});
+  }
+  close() {
+    this.clear();
+    $('course').hidden = $('review').hidden = true;
+    $('ask').close();
+    this.host.changed();
+  }
+  post(message, transfer = []) {
+    this.worker?.postMessage({...message, work: this.work}, transfer);
+  }
+  fail(text) {
+    this.trouble = text;
+    this.loaded = true;
+    console.error(text);
+    this.host.say(word('no_steps', text), 12000);
+    if (this.page) this.show_review();
+    this.host.changed();
+  }
+
+  hear(data) {
+    if (data.kind === 'broken') return this.fail(data.text);
+    if (data.work !== this.work) return;
+    if (data.words) this.texts = data.words;
+    if (data.questions) this.questions = data.questions;
+    if (data.steps) this.steps = data.steps;
+    for (const event of data.events ?? []) this.note(event);
+    if (data.kind === 'opened') {
+      this.loaded = true;
+      this.shown = this.steps.offer === 'always';
+      if (this.mode === 'exam') this.host.say(this.texts.exam_begins, 8000);
+      this.rest();
+    } else if (data.kind === 'looked') {
+      this.looking = false;
+      if (data.ticked) this.host.say(this.text('steps_ticked', data.ticked), 8000);
+      this.rest();
+    } else if (data.kind === 'marked') {
+      this.took = {ms: data.ms, memory: data.memory};
+      this.found = data.marks ?? null;
+      this.trouble = data.why ?? '';
+      this.page = 'found';
+    } else if (data.kind === 'dressed' && data.marks) {
+      this.found = data.marks;
+    } else if (data.kind === 'page') {
+      if (data.html) this.host.keep(new TextEncoder().encode(data.html), 'burr.html', 'text/html');
+      this.report_saved = data.html?.length ?? data.why;
+    }
+    this.show();
+  }
+
+  text(key, ...parts) {
+    return (this.texts[key] ?? key).replace(/\{[^}]*\}/g, (gap) => parts.shift() ?? gap);
+  }
+  note(event) {
+    this.host.tell({kind: 'note', what: {what: '', value: '', ...event}});
+  }
+  speak() {
+    if (this.loaded) this.post({kind: 'language', language: words.present()});
+  }
+
+  // ---- the steps
+
+  offers_steps() { return this.steps !== null && this.steps.offer !== 'never'; }
+  goes_back() { return this.page === null && (this.steps === null ? this.mode !== 'exam' : this.steps.back); }
+  // True: it says so.
+  refuses_back() {
+    if (this.goes_back()) return false;
+    if (this.page === null) this.host.say(this.text('refused_exam'), 3000);
+    return true;
+  }
+  show_steps() {
+    if (!this.offers_steps()) return;
+    this.shown = !this.shown;
+    this.note({kind: this.shown ? 'help_shown' : 'help_hidden', what: 'steps'});
+    this.show();
+  }
+  step_done() {
+    if (this.offers_steps() && this.page === null) this.post({kind: 'done'});
+  }
+  rest() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.measure(), kRest);
+  }
+  // Asks for the bricks that were cut, so that the other worker's bone is as this one's; it measures where the step says how.
+  measure() {
+    if (this.page !== null || this.looking) return;
+    if (!this.offers_steps() || !this.steps.now?.measured || $('ask').open) return this.rest();
+    this.looking = true;
+    this.host.tell({kind: 'changed'});
+  }
+  look(bytes) {
+    this.post({kind: 'look', bytes, measure: this.page === null}, [bytes.buffer]);
+  }
+
+  show() {
+    const panel = $('course');
+    panel.hidden = !this.shown || !this.offers_steps() || this.page !== null;
+    if (!panel.hidden) {
+      const held = [...panel.querySelectorAll('button')].indexOf(document.activeElement);
+      panel.replaceChildren(...this.panel());
+      if (held >= 0) ([...panel.querySelectorAll('button')][held] ?? $('picture')).focus();
+    }
+    if (this.page !== null) this.show_review();
+    this.host.changed();
+  }
+  panel() {
+    const {now, rows} = this.steps;
+    const about = now ? [
+      make('p', {class: 'small'}, now.count), make('p', {class: 'title'}, now.title), make('p', {}, now.say),
+      now.tool && make('p', {class: 'small'}, now.tool), now.spare && make('p', {class: 'warn'}, now.spare),
+      button(this.text('steps_done', 'J'), () => this.step_done(), {id: 'step_done'}),
+    ] : [make('p', {class: 'good'}, this.text('steps_all_done'))];
+    const list = make('ol', {}, ...rows.map((row, n) => make('li', {}, button(
+        (row.done ? '✓ ' : row.current ? '▸ ' : '○ ') + row.title,
+        () => { if (!row.current) this.post({kind: 'choose', row: n}); },
+        {title: row.current ? '' : this.text(row.done ? 'steps_reopen' : 'steps_choose'), ...(row.current && {'aria-current': 'step'})}))));
+    return [...about.filter(Boolean), list];
+  }
+
+  // ---- the end
+
+  can_finish() { return this.loaded && this.steps !== null && this.page === null; }
+  covers() { return this.page !== null || $('ask').open; }
+
+  ask_done() {
+    if (!this.can_finish() || $('ask').open) return;
+    if (!(this.host.figures().removed > 0)) return this.host.say(this.text('done_nothing'), 5000);
+    const ask = $('ask'), close = () => ask.close();
+    ask.replaceChildren(
+        make('h2', {id: 'ask_title'}, this.text('done_title')), make('p', {}, this.text('done_told')),
+        this.steps.open > 0 ? make('p', {class: 'warn'}, this.text('done_open_steps', this.steps.open)) : '',
+        make('nav', {}, button(this.text('done_yes'), () => { close(); this.finish(); }, {id: 'done_yes'}),
+             button(this.text('done_no'), close, {id: 'done_no'})));
+    ask.setAttribute('aria-labelledby', 'ask_title');
+    ask.showModal();
+  }
+
+  // The work is done: the picture is taken, then the user marks his own work.
+  async finish() {
+    this.page = 'own';
+    clearTimeout(this.timer);
+    this.show();
+    this.picture = await this.host.picture();
+  }
+  own_finished(kept) {
+    if (kept) for (const [what, value] of this.marks) this.note({kind: 'self_mark', what, value});
+    this.page = this.steps.marks ? 'waits' : 'exam';
+    this.host.tell({kind: 'save', declared: true});
+    this.show();
+  }
+  // The recording has come. False: it is not of the end of a course.
+  takes(data) {
+    if (this.page === null) return false;
+    if (!data.file) {
+      this.page = 'found';
+      this.trouble = data.why || word('saved_before');
+      this.show();
+      return true;
+    }
+    this.file = new Blob([data.file]);
+    if (this.page === 'waits') this.post({kind: 'mark', file: data.file}, [data.file.buffer]);
+    this.show();
+    return true;
+  }
+  save() {
+    if (this.page === null) return false;
+    this.file?.arrayBuffer().then((bytes) => this.host.keep(new Uint8Array(bytes), 'burr.mcap', 'application/octet-stream'));
+    return true;
+  }
+  async save_report() {
+    this.picture ??= await this.host.picture();
+    this.post({kind: 'page', ...this.picture, caption: word('at_end')});
+  }
+
+  show_review() {
+    const review = $('review');
+    const top = review.querySelector('.body')?.scrollTop ?? 0;
+    const was = review.dataset.page;
+    review.hidden = false;
+    review.dataset.page = this.page;
+    review.replaceChildren(...(this.page === 'own' ? this.own() : this.result()));
+    if (was === this.page) review.querySelector('.body').scrollTop = top;
+    else review.querySelector('button.first')?.focus();
+  }
+
+  // As the window asks (review/self_marks_page.cpp).
+  own() {
+    const answers = [['met', 'report_verdict_met'], ['unmet', 'report_verdict_unmet'], ['unknown', 'report_self_unknown']];
+    const items = this.questions.flatMap((part) => part.items);
+    const count = make('span', {class: 'dim'}, this.text('self_count', this.marks.size, items.length));
+    const rows = new Map();
+    const press = () => {
+      for (const [id, buttons] of rows)
+        for (const [value, one] of buttons) one.setAttribute('aria-pressed', String(this.marks.get(id) === value));
+      count.textContent = this.text('self_count', this.marks.size, items.length);
+    };
+    const row = (item) => {
+      const buttons = answers.map(([value, key]) => [value, button(this.text(key), () => {
+        if (this.marks.get(item.id) === value) this.marks.delete(item.id);
+        else this.marks.set(item.id, value);
+        press();
+      }, {'data-item': item.id, 'data-value': value})]);
+      rows.set(item.id, buttons);
+      return make('div', {class: 'choice', role: 'group', 'aria-label': item.text}, ...buttons.map(([, one]) => one),
+                  make('span', {}, item.text), item.gate ? make('span', {class: 'warn'}, this.text('report_gate')) : '');
+    };
+    const parts = this.questions.map((part) => make('section', {}, make('h2', {}, part.title), make('div', {class: 'choice'},
+        ...answers.slice(0, 2).map(([value, key]) => button(this.text(key), () => {
+          for (const item of part.items) if (!this.marks.has(item.id)) this.marks.set(item.id, value);
+          press();
+        })), make('span', {class: 'dim'}, this.text('self_rest'))), ...part.items.map(row)));
+    press();
+    return [
+      make('h1', {}, this.text('self_title')), make('p', {class: 'dim'}, this.text('self_why')),
+      make('div', {class: 'body single', tabindex: '0'}, ...parts),
+      make('nav', {}, button(this.text('self_finish'), () => this.own_finished(true), {id: 'self_finish', class: 'first'}),
+           button(this.text('self_skip'), () => this.own_finished(false), {id: 'self_skip'}), count),
+    ];
+  }
+
+  // As the window shows it (review/review_page.cpp).
+  result() {
+    const told = this.page === 'exam' ? this.text('review_exam') : this.trouble;
+    const inside = this.page === 'waits' ? [make('p', {}, this.text('review_waits')), make('progress')]
+                 : told ? [make('p', {}, told)]
+                 : this.found_parts(this.found.report);
+    const single = this.page !== 'found' || told;
+    return [
+      make('h1', {}, this.text('review_title')),
+      make('div', {class: single ? 'body single' : 'body', tabindex: '0'}, ...inside),
+      make('nav', {},
+           this.found ? button(word('save_report'), () => this.save_report(), {id: 'save_report', class: 'first', title: word('save_report_tip')}) : '',
+           button(word('save'), () => this.save(), {id: 'save_done', disabled: this.file === null}),
+           button(this.text('review_again'), () => $('mode').dispatchEvent(new Event('change')), {id: 'again'})),
+    ];
+  }
+  found_parts(report) {
+    const gates = report.gates.length === 0 ? [] : [
+      make('h2', {}, this.text('report_safety')), make('p', {}, report.held),
+      ...report.gates.filter((gate) => gate.mark.tone !== 'good').map((gate) => make('p', {}, gate.text, ' ', mark_of(gate.mark), gate.when && `, ${gate.when}`)),
+    ];
+    const totals = report.parts.flatMap((part) => [
+      make('p', {class: 'dim'}, part.title), make('p', {}, make('b', {}, part.met)), make('p', {class: 'warn'}, part.note)]);
+    const next = report.next.length === 0 ? [make('p', {}, report.nothing_next)]
+               : [make('ol', {}, ...report.next.map((one) => make('li', {}, one.say, make('div', {class: 'dim'}, one.why))))];
+    const left = make('div', {}, make('p', {class: 'warn'}, report.unfinished), ...gates, make('h2', {}, this.text('report_totals')), ...totals,
+                      make('h2', {}, this.text('report_self')), make('p', {}, report.self), make('h2', {}, this.text('report_next')), ...next);
+    const head = make('tr', {}, report.has_self ? make('th', {}, report.you) : '', make('th', {}, report.machine), make('th', {}, this.text('report_item')));
+    const rows = report.parts.flatMap((part) => [
+      make('tr', {}, make('th', {colspan: '3'}, part.title)),
+      ...part.items.map((item) => make('tr', {'data-item': item.id},
+          report.has_self ? make('td', {class: 'mark'}, mark_of(item.self)) : '', make('td', {class: 'mark'}, mark_of(item.machine)),
+          make('td', {}, item.text, item.gate ? ` (${this.text('report_gate')})` : '',
+               make('div', {class: 'dim'}, item.figures, item.default && ` (${item.default})`),
+               ...item.remarks.map((one) => make('div', {class: 'dim'}, one))))),
+    ]);
+    return [left, make('table', {}, head, ...rows)];
+  }
+}

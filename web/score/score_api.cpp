@@ -1,0 +1,330 @@
+// What the page's second worker calls (pages/mill/score_worker.js): the steps of the case while somebody
+// cuts, and at the end the questions, the score and the report. All of it is the window's own code.
+//
+//     score_open(mode, voxel_mm, language), score_words(), score_begin()
+//     then: score_steps(); score_take(changed bricks), score_look(); score_done(), score_choose()
+//     at the end: score_questions(); the recording as kFile, score_mark(), score_marks(), score_page()
+//
+// One thread. Texts are JSON, in the module's memory until the next call of the same function. 0 and
+// nullptr: score_why() says why.
+#include <emscripten.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/phantom/build.h"
+#include "burr/record/identity.h"
+#include "burr/scenario/case.h"
+#include "burr/scoring/rubric.h"
+#include "burr/scoring/step_done.h"
+#include "burr/volume/copy_of_bone.h"
+#include "burr/workshop/allowed.h"
+#include "commands/score_words.h"
+#include "report/make_report.h"
+#include "report/questions.h"
+#include "report/report_page.h"
+#include "report/scored.h"
+#include "report/self_marks.h"
+#include "window/mill/steps.h"
+#include "window/mill/suits.h"
+#include "window/shell/anatomy.h"
+#include "window/shell/words.h"
+#include "work_of_page.h"
+
+namespace {
+
+using namespace burr;
+using nlohmann::ordered_json;
+
+constexpr const char* kFile = "/burr.mcap";  // in the module's own file system
+constexpr std::size_t kReserveBricks = 2048;
+
+struct Course {
+  scenario::Case work;
+  scenario::Lesson lesson;
+  record::Mode mode = record::Mode::free;
+  workshop::Allowed allowed;
+  app::Steps steps;
+  std::unique_ptr<volume::Bone> before, now;
+  std::optional<app::Scored> scored;
+  app::ReportSettings settings;
+  std::optional<app::Report> report;
+};
+
+std::unique_ptr<Course> course;
+std::string why, text;
+
+const char* told(const ordered_json& what) {
+  text = what.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return text.c_str();
+}
+
+bool failed(const Error& error) {
+  why = error.text;
+  return false;
+}
+
+ordered_json json_of(const app::Steps::Events& events) {
+  ordered_json all = ordered_json::array();
+  for (const app::Steps::Event& one : events)
+    all.push_back({{"kind", record::word_of(one.kind)}, {"what", one.what}, {"value", one.value}});
+  return all;
+}
+
+ordered_json json_of(const app::ReportMark& mark) {
+  constexpr const char* kTones[] = {"good", "bad", "open", "none"};
+  return {{"word", mark.word}, {"tone", kTones[static_cast<std::size_t>(mark.tone)]}};
+}
+
+bool open_case(const std::string& mode, double voxel_mm) {
+  auto made = std::make_unique<Course>();
+  auto work = scenario::read_case(web::kCase);
+  if (!work) return failed(work.error());
+  made->work = std::move(*work);
+  const auto rubric = scoring::read_rubric(made->work.name);
+  if (!rubric) return failed(rubric.error());
+  auto lesson = app::lesson_for(made->work, *rubric);
+  if (!lesson) return failed(lesson.error());
+  made->lesson = std::move(*lesson);
+  made->mode = record::mode_of(mode).value_or(record::Mode::free);
+  made->allowed = workshop::allowed_in(made->mode, made->lesson.feedback, true);
+  made->steps = app::Steps(made->lesson.steps);
+  const double voxel = 1e-3 * voxel_mm;
+  const phantom::Phantom bone = web::phantom_of_page(voxel);
+  NoProgress quiet;
+  auto before = phantom::bone_from_formula(phantom::box_grid(bone.lo, bone.hi, voxel), bone.tissues,
+                                           bone.formula, kReserveBricks, 1, quiet);
+  if (!before) return failed(error("there is not enough memory"));
+  made->before = std::move(*before);
+  made->now = volume::copy_of(*made->before);
+  course = std::move(made);
+  app::take_titles_of(&course->lesson);
+  return true;
+}
+
+bool steps_offered() {
+  return !course->steps.empty() && course->allowed.steps != workshop::Offer::never;
+}
+
+// What the panel of the window says about the current step (window/mill/steps_panel.cpp).
+ordered_json json_of_steps() {
+  const app::Steps& steps = course->steps;
+  const auto title_of = [](const scenario::Step& step) {
+    const std::string& title = step.title.in(app::spoken().code);
+    return title.empty() ? step.id : title;
+  };
+  ordered_json out;
+  constexpr const char* kOffers[] = {"never", "on demand", "always"};
+  out["offer"] =
+      steps_offered() ? kOffers[static_cast<std::size_t>(course->allowed.steps)] : "never";
+  out["back"] = course->allowed.back;
+  out["marks"] = course->allowed.marks;
+  out["open"] =
+      steps_offered() && course->mode != record::Mode::free ? steps.size() - steps.done_count() : 0;
+  if (const scenario::Step* now = steps.now(); now != nullptr) {
+    ordered_json& one = out["now"];
+    one["id"] = now->id;
+    one["count"] = app::say(app::Word::steps_count, *steps.current() + 1, steps.size());
+    one["title"] = title_of(*now);
+    one["say"] = now->say.in(app::spoken().code);
+    const std::string tool = app::suits(*now);
+    one["tool"] = tool.empty() ? "" : app::say(app::Word::steps_tool, tool);
+    one["spare"] =
+        now->spare.empty() ? "" : app::say(app::Word::task_spare, app::anatomy_list(now->spare));
+    one["measured"] = now->done.has_value() && !steps.was_reopened(*steps.current());
+  }
+  out["rows"] = ordered_json::array();
+  for (std::size_t n = 0; n < steps.size(); ++n)
+    out["rows"].push_back({{"id", steps[n].id},
+                           {"title", title_of(steps[n])},
+                           {"done", steps.is_done(n)},
+                           {"current", steps.current() == n}});
+  return out;
+}
+
+ordered_json json_of(const app::ReportItem& item) {
+  ordered_json row;
+  row["id"] = item.id;
+  row["text"] = item.text;
+  row["gate"] = item.gate;
+  row["self"] = json_of(item.self);
+  row["machine"] = json_of(item.machine);
+  row["figures"] = item.figures;
+  row["default"] = item.default_word;
+  row["remarks"] = item.remarks;
+  return row;
+}
+
+ordered_json json_of(const app::Report& report) {
+  ordered_json out;
+  out["title"] = report.title;
+  out["unfinished"] = report.unfinished;
+  out["self"] = report.self;
+  out["has_self"] = report.has_self;
+  out["you"] = report.you;
+  out["machine"] = report.machine;
+  out["head"] = report.head;
+  out["gates"] = ordered_json::array();
+  std::size_t held = 0;
+  for (const app::ReportGate& gate : report.gates) {
+    held += gate.mark.tone == app::Tone::good ? 1 : 0;
+    out["gates"].push_back(
+        {{"text", gate.text}, {"when", gate.when}, {"mark", json_of(gate.mark)}});
+  }
+  out["held"] = app::say(app::Word::review_gates, held, report.gates.size());
+  out["parts"] = ordered_json::array();
+  for (const app::ReportPart& part : report.parts) {
+    ordered_json one = {{"title", part.title}, {"met", part.met}, {"note", part.note}};
+    one["items"] = ordered_json::array();
+    for (const app::ReportItem& item : part.items) one["items"].push_back(json_of(item));
+    out["parts"].push_back(std::move(one));
+  }
+  out["next"] = ordered_json::array();
+  for (const app::ReportAdvice& advice : report.next)
+    out["next"].push_back({{"say", advice.say}, {"why", advice.why}});
+  out["nothing_next"] = report.nothing_next;
+  out["small"] = report.small;
+  return out;
+}
+
+// The report in the language that is spoken now.
+bool make_report() {
+  NoProgress quiet;
+  auto report = app::report_on(*course->scored, course->settings, quiet);
+  if (!report) return failed(report.error());
+  course->report = std::move(*report);
+  return true;
+}
+
+bool mark_recording() {
+  auto judged = app::judged_by(kFile, "");
+  if (!judged) return failed(judged.error());
+  course->settings = {};
+  course->settings.most_pictures = 0;
+  course->settings.self = app::recorded_self_marks(*judged->player, judged->rubric);
+  NoProgress quiet;
+  auto made = app::scored(std::move(*judged), {}, quiet);
+  if (!made) return failed(made.error());
+  course->scored = std::move(*made);
+  return make_report();
+}
+
+}  // namespace
+
+extern "C" {
+
+EMSCRIPTEN_KEEPALIVE const char* score_why() { return why.c_str(); }
+
+// The case on the bone of the page, before the first cut.
+EMSCRIPTEN_KEEPALIVE int score_open(const char* mode, double voxel_mm) {
+  course.reset();
+  return open_case(mode, voxel_mm) ? 1 : 0;
+}
+
+EMSCRIPTEN_KEEPALIVE void score_speak(const char* language) { app::speak(language); }
+
+// The texts of the window that begin with one of these: {key: text}.
+EMSCRIPTEN_KEEPALIVE const char* score_words() {
+  constexpr const char* kKeys[] = {
+#define BURR_WORD(key) #key,
+#include "word_keys.h"
+#undef BURR_WORD
+  };
+  constexpr std::string_view kWanted[] = {"steps_",  "done_",    "self_",      "review_",
+                                          "report_", "refused_", "exam_begins"};
+  ordered_json out;
+  for (std::size_t n = 0; n < std::size(kKeys); ++n)
+    if (std::any_of(std::begin(kWanted), std::end(kWanted), [&](std::string_view start) {
+          return std::string_view(kKeys[n]).starts_with(start);
+        }))
+      out[kKeys[n]] = app::word(static_cast<app::Word>(n));
+  return told(out);
+}
+
+EMSCRIPTEN_KEEPALIVE const char* score_steps() { return told(json_of_steps()); }
+
+// These three give what is to be written into the recording.
+EMSCRIPTEN_KEEPALIVE const char* score_begin() {
+  return told(json_of(steps_offered() ? course->steps.begin() : app::Steps::Events{}));
+}
+EMSCRIPTEN_KEEPALIVE const char* score_done(int measured) {
+  return told(
+      json_of(steps_offered() ? course->steps.declare_done(measured != 0) : app::Steps::Events{}));
+}
+EMSCRIPTEN_KEEPALIVE const char* score_choose(int n) {
+  return told(json_of(steps_offered() ? course->steps.choose(static_cast<std::size_t>(n))
+                                      : app::Steps::Events{}));
+}
+
+// Bricks that have changed, one after the other: core_api.cpp's Changed.
+EMSCRIPTEN_KEEPALIVE void score_take(const std::uint8_t* bytes, int count) {
+  volume::Bone& now = *course->now;
+  for (int n = 0; n < count; ++n, bytes += sizeof(web::ChangedBrick)) {
+    web::ChangedBrick one;
+    std::memcpy(&one, bytes, sizeof one);
+    if (one.brick < 0 || one.brick >= now.brick_count()) continue;
+    if (now.ensure_slot(one.brick) == volume::kNoSlot) continue;
+    volume::BrickField field;
+    std::copy(std::begin(one.field), std::end(one.field), field.voxel);
+    now.write_brick(one.brick, field);
+  }
+  now.commit_ahead();
+}
+
+// 1: the current step has reached its measure.
+EMSCRIPTEN_KEEPALIVE int score_look() {
+  const auto current = course->steps.current();
+  if (!current || course->steps.was_reopened(*current)) return 0;
+  NoProgress quiet;
+  const auto reached = scoring::step_done(course->steps[*current], course->lesson, *course->before,
+                                          *course->now, quiet);
+  return reached && *reached ? 1 : 0;
+}
+
+EMSCRIPTEN_KEEPALIVE const char* score_questions() {
+  ordered_json out = ordered_json::array();
+  for (const app::QuestionPart& part : app::questions_on(course->work)) {
+    ordered_json one = {{"title", part.title}, {"items", ordered_json::array()}};
+    for (const app::Question& item : part.items)
+      one["items"].push_back({{"id", item.id}, {"text", item.text}, {"gate", item.gate}});
+    out.push_back(std::move(one));
+  }
+  return told(out);
+}
+
+// Scores the recording kFile. It takes seconds.
+EMSCRIPTEN_KEEPALIVE int score_mark() { return mark_recording() ? 1 : 0; }
+
+// {report, score}: what the page shows, and what `burr score --json` says.
+EMSCRIPTEN_KEEPALIVE const char* score_marks() {
+  if (!make_report()) return nullptr;
+  ordered_json out;
+  out["report"] = json_of(*course->report);
+  out["score"] = app::score_json(course->scored->judged.rubric, course->scored->score);
+  return told(out);
+}
+
+// The report as one HTML page, with a picture of the bone at the end.
+EMSCRIPTEN_KEEPALIVE const char* score_page(const char* png, int bytes, int width, int height,
+                                            const char* caption) {
+  if (!make_report()) return nullptr;
+  app::Report& report = *course->report;
+  if (bytes > 0) {
+    report.sides_legend.clear();  // the picture is in the bone's own colours
+    app::ReportSides& side = report.sides.emplace_back();
+    side.pictures.push_back(
+        {std::string(png, static_cast<std::size_t>(bytes)), caption, width, height});
+  }
+  text = app::page_of(report);
+  return text.c_str();
+}
+
+}  // extern "C"
