@@ -35,8 +35,11 @@ scenario::Case planned() {
   return std::move(*work);
 }
 
-// Records a session in which nothing is cut and, unless `by` is zero, the right part is moved.
-void record_session(const std::string& file, const Vec3& by, const Vec3& turn) {
+// Records a session in which nothing is cut and, unless `by` is zero, the right part is moved. ends: lift: it ends
+// with the part out of the bone, as one that was killed; leave: it was lifted and left.
+enum class Ends { whole, lift, leave };
+void record_session(const std::string& file, const Vec3& by, const Vec3& turn,
+                    Ends ends = Ends::whole) {
   NoProgress quiet;
   const scenario::Case work = planned();
   scenario::Recipe coarse;
@@ -67,6 +70,15 @@ void record_session(const std::string& file, const Vec3& by, const Vec3& turn) {
     edit::PieceStore store;
     const auto moved = sim::move_piece(session, store, {Vec3(15, 0, 0) * kMm, by, turn}, quiet);
     ASSERT_TRUE(moved.ok()) << moved.error().text;
+  }
+  if (ends != Ends::whole) {
+    edit::PieceStore store;
+    const auto lifted = sim::lift_piece(session, store, Vec3(15, 0, 0) * kMm, quiet);
+    ASSERT_TRUE(lifted.ok()) << lifted.error().text;
+    if (ends == Ends::leave) {
+      ASSERT_TRUE(sim::leave_piece(session).ok());
+    }
+    session.run(0.3, quiet);
   }
   session.set_recorder(nullptr);
   ASSERT_TRUE((*recorder)->finish().ok());
@@ -119,6 +131,44 @@ TEST(MovedPieces, AreFactsBesideTheItemsAndChangeNone) {
       << told->pieces[0].second;
   EXPECT_NE(page_of(*told).find("id=\"pieces\""), std::string::npos);
   EXPECT_EQ(page_of(*silent).find("id=\"pieces\""), std::string::npos);
+}
+
+// A session that was killed while a piece was in a hand: the bone of the recording has a hole there, but the piece
+// was not cut away.
+TEST(MovedPieces, OneThatIsOutAtTheEndCountsAsItLay) {
+  const test::Folder folder;
+  const std::string out = (folder.path() / "out.mcap").string(),
+                    left = (folder.path() / "left.mcap").string(),
+                    without = (folder.path() / "still.mcap").string();
+  record_session(out, Vec3::Zero(), Vec3::Zero(), Ends::lift);
+  record_session(left, Vec3::Zero(), Vec3::Zero(), Ends::leave);
+  record_session(without, Vec3::Zero(), Vec3::Zero());
+  if (HasFatalFailure()) return;
+  Scored lifted = score_of(out), back = score_of(left), still = score_of(without);
+  EXPECT_NE(lifted.after->content_hash(), still.after->content_hash()) << "it is out";
+  EXPECT_EQ(back.after->content_hash(), still.after->content_hash());
+  EXPECT_TRUE(back.pieces.empty());
+  ASSERT_EQ(lifted.pieces.size(), 1U);
+  EXPECT_TRUE(lifted.pieces[0].out);
+  EXPECT_NEAR(1e9 * lifted.pieces[0].volume, 9.5 * 40 * 30, 0.02 * 9.5 * 40 * 30);
+  ASSERT_EQ(lifted.score.outcomes.size(), still.score.outcomes.size());
+  for (std::size_t n = 0; n < still.score.outcomes.size(); ++n) {
+    EXPECT_EQ(lifted.score.outcomes[n].verdict, still.score.outcomes[n].verdict);
+    EXPECT_EQ(lifted.score.outcomes[n].value, still.score.outcomes[n].value);
+  }
+  EXPECT_EQ(lifted.score.worked, still.score.worked);
+  ASSERT_EQ(pieces_text(lifted.pieces).size(), 1U);
+  EXPECT_NE(pieces_text(lifted.pieces)[0].find("out of the bone"), std::string::npos);
+  NoProgress quiet;
+  ReportSettings settings;
+  settings.most_pictures = 0;
+  const auto told = report_on(lifted, settings, quiet);
+  ASSERT_TRUE(told.ok());
+  ASSERT_EQ(told->pieces.size(), 1U);
+  EXPECT_NE(told->pieces[0].second.find("out of the bone"), std::string::npos);
+  auto player = record::Player::open(out);
+  ASSERT_TRUE(player.ok());
+  EXPECT_TRUE(sim::moves_pieces(**player));
 }
 
 // `burr info` asks for it before it opens a bone.

@@ -257,6 +257,7 @@ constexpr double kLiftTime = 10;  // in which a piece is out of the bone  [s]
 // A path that carries a piece, from the place where the hand is when its motion is over.
 struct Carry {
   math::Vec3 near = math::Vec3::Zero();  // of the piece
+  std::string file;
   device::HandPath path;
 };
 Result<Carry> read_carry(const std::string& text) {
@@ -267,7 +268,8 @@ Result<Carry> read_carry(const std::string& text) {
                  fmt::format("--carry-piece {}: give X,Y,Z:FILE.csv (mm), for example "
                              "10,0,5:carry.csv",
                              base::printable(text)));
-  auto path = surgeon::read_path(text.substr(colon + 1));
+  carry.file = text.substr(colon + 1);
+  auto path = surgeon::read_path(carry.file);
   if (!path) return path.error();
   carry.path = std::move(*path);
   return carry;
@@ -464,7 +466,7 @@ Status run(Options options) {
   }
   const Status possible = check_outputs(
       {options.volume.source, options.volume.labels, options.volume.materials, options.path_csv,
-       options.second.path_csv},
+       options.second.path_csv, carry ? carry->file : std::string()},
       {{"--record", options.record, {".mcap"}}, {"--picture", options.picture, {".png"}}},
       options.force);
   if (!possible) return possible;

@@ -67,6 +67,13 @@ std::vector<MovedPiece> moved_pieces(const edit::PieceStore& store, const volume
                                      const scenario::Lesson* lesson) {
   std::vector<MovedPiece> all;
   const std::vector<edit::PieceStore::Moved> moved = store.moved(bone);
+  if (const auto lifted = store.out(bone)) {
+    MovedPiece& piece = all.emplace_back();
+    piece.number = lifted->number;
+    piece.volume = lifted->volume;
+    piece.centre = lifted->centre;
+    piece.out = true;
+  }
   if (moved.empty()) return all;
   const std::unique_ptr<volume::Bone> rest = store.without_moved(bone);
   for (const edit::PieceStore::Moved& one : moved) {
@@ -103,6 +110,7 @@ nlohmann::ordered_json pieces_json(const std::vector<MovedPiece>& pieces) {
     nlohmann::ordered_json row;
     row["piece"] = one.number + 1;
     row["volume_mm3"] = 1e9 * one.volume;
+    row["out"] = one.out;
     row["centre_mm"] = mm(one.centre);
     row["moved_mm"] = mm(one.by);
     row["distance_mm"] = 1e3 * one.by.norm();
@@ -133,6 +141,12 @@ std::vector<std::string> pieces_text(const std::vector<MovedPiece>& pieces) {
   std::vector<std::string> lines;
   for (const MovedPiece& one : pieces) {
     const metrics::PieceFit& fit = one.fit;
+    if (one.out) {
+      lines.push_back(
+          fmt::format("piece {} of {:.1f} mm3: out of the bone, in a hand, when the recording ends",
+                      one.number + 1, 1e9 * one.volume));
+      continue;
+    }
     std::string line =
         fmt::format("piece {} of {:.1f} mm3: moved {:.2f} mm, turned {:.2f} degrees",
                     one.number + 1, 1e9 * one.volume, 1e3 * one.by.norm(), one.turned / kDegree);

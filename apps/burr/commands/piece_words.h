@@ -31,6 +31,7 @@ struct MovedPiece {
   math::Vec3 centre = math::Vec3::Zero();  // world                           [m]
   math::Vec3 by = math::Vec3::Zero();      // of it, from where it came free  [m]
   double turned = 0;                       // [rad]
+  bool out = false;                        // of the bone: it is in a hand, and lies nowhere
   metrics::PieceFit fit;                   // to the other bone
   struct Plan {
     std::string title;                   // in English; may be empty

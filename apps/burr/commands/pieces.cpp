@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -61,7 +62,9 @@ Status run(const Options& options) {
     return fine();
   }
   fmt::print("{} free, {} of them moved; {} splinters\n",
-             free == 1 ? "1 piece" : fmt::format("{} pieces", free), moved->pieces.size(),
+             free == 1 ? "1 piece" : fmt::format("{} pieces", free),
+             std::count_if(moved->pieces.begin(), moved->pieces.end(),
+                           [](const MovedPiece& piece) { return !piece.out; }),
              splinters);
   for (const std::string& line : pieces_text(moved->pieces)) fmt::print("{}\n", line);
   return fine();

@@ -292,6 +292,7 @@ std::vector<TextPair> pieces_of(const Scored& scored, const std::string& whose) 
     constexpr double kDegree = std::numbers::pi / 180;
     std::string text = say(Word::report_piece_moved, 1e9 * piece.volume, 1e3 * piece.by.norm(),
                            piece.turned / kDegree);
+    if (piece.out) text = say(Word::report_piece_out, 1e9 * piece.volume);
     if (piece.fit.facing > 0) text += say(Word::report_piece_gap, 1e3 * piece.fit.gap);
     if (piece.fit.has_step) text += say(Word::report_piece_step, 1e3 * piece.fit.step);
     if (piece.plan)

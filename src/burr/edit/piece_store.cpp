@@ -531,7 +531,19 @@ Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMo
 void PieceStore::accept(const Prepared& prepared) {
   const Ready& ready = *prepared.ready;
   if (ready.number == kept_.size()) kept_.push_back(ready.kept);
-  if (ready.place) ready.kept->places.push_back(ready.place);  // not of one that was lifted
+  if (ready.place) {
+    ready.kept->places.push_back(ready.place);
+    out_.reset();
+  } else {
+    out_ = ready.number;  // it was lifted
+  }
+}
+
+std::optional<PieceStore::Out> PieceStore::out(const Bone& bone) const {
+  if (!out_) return {};
+  const Kept& kept = *kept_[*out_];
+  if (place_of(bone, kept) != nullptr) return {};
+  return Out{*out_, kept.volume, bone.grid().world_from_grid(kept.centre_grid)};
 }
 
 std::vector<PieceStore::Moved> PieceStore::moved(const Bone& bone) const {
@@ -576,6 +588,7 @@ std::unique_ptr<Bone> PieceStore::taken_out(const Bone& bone, bool back) const {
     take_out(place->prints, work);
     out_of_place.push_back(kept_[n].get());
   }
+  if (const auto lifted = out(bone)) out_of_place.push_back(kept_[lifted->number].get());
   for (const Kept* const kept : out_of_place) {
     if (!back) break;
     for (const Print& print : kept->places.front()->prints) {

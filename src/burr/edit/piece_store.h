@@ -89,7 +89,16 @@ class PieceStore {
   [[nodiscard]] std::vector<Moved> moved(const volume::Bone& bone) const;
   // The bone without the pieces that were moved.
   [[nodiscard]] std::unique_ptr<volume::Bone> without_moved(const volume::Bone& bone) const;
-  // The bone as if no piece had been moved: each lies again where it came free.
+  // A piece that was lifted out of the bone, and is neither where it lay nor where it was put down.
+  struct Out {
+    std::uint32_t number = 0;
+    double volume = 0;  // as it came free [m^3]
+    math::Vec3 centre = math::Vec3::Zero();
+  };
+  [[nodiscard]] std::optional<Out> out(const volume::Bone& bone) const;
+  // What was lifted last has gone back, and was cut, or bone was put on it: it is not out.
+  void none_is_out() { out_.reset(); }
+  // The bone as if no piece had been moved: each lies again where it came free, also the one that is out.
   [[nodiscard]] std::unique_ptr<volume::Bone> with_pieces_back(const volume::Bone& bone) const;
 
   [[nodiscard]] std::size_t size() const { return kept_.size(); }
@@ -106,6 +115,7 @@ class PieceStore {
                                            std::size_t piece) const;
 
   std::vector<std::shared_ptr<Kept>> kept_;
+  std::optional<std::uint32_t> out_;  // lifted last, and not put down
 };
 
 // Of the finder's pieces, from 1.

@@ -102,6 +102,8 @@ class TouchMethod {
   // The proxy of all its parts, if they touch: then two tools may be solved together
   // (six/two_tools.h), and felt() takes the place of step_pose(). nullptr: it has none at present.
   [[nodiscard]] virtual SixProxy* six() BURR_RT { return nullptr; }
+  // Where six() is wanted: with the hand, unless what the hand holds was grabbed beside it.
+  [[nodiscard]] virtual math::Pose goal(const math::Pose& hand) const BURR_RT { return hand; }
   // What was felt in this tick, of a method that has six().
   [[nodiscard]] virtual Touch felt(const SixTouch& six, const math::Pose& hand) BURR_RT;
   // Of the last tick; nullptr: a ball alone touches, and Touch says all.

@@ -88,6 +88,8 @@ Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store, const P
 Result<PieceLifted> lift_piece(Session& session, edit::PieceStore& store, const Vec3& near,
                                Progress& progress) {
   session.run(kRest, progress);
+  if (session.servo().piece().lifted())
+    return error(Trouble::usage, "a piece is in the hand already; put it down first");
   const auto piece = store.find(session.bone(), near);
   if (!piece) return piece.error();
   PieceLifted lifted;
@@ -152,7 +154,9 @@ bool moves_pieces(record::Player& player) {
   record::StepCursor steps = player.steps();
   for (record::Step step; steps.next(step);)
     for (const tick::Command& command : step.commands)
-      if (command.kind == tick::CommandKind::move_piece) return true;
+      if (command.kind == tick::CommandKind::move_piece ||
+          command.kind == tick::CommandKind::lift_piece)
+        return true;
   return false;
 }
 
@@ -160,9 +164,13 @@ Result<edit::PieceStore> moved_in(record::Player& player, volume::Bone& bone, do
   edit::PieceStore store;
   record::StepCursor steps = player.steps();
   const double rate = player.info().rate_hz;
+  bool out = false;
   for (record::Step step; steps.next(step);) {
     const double t = static_cast<double>(step.row.tick) / rate;
     if (until >= 0 && t > until) break;
+    // on its way out or in, too
+    out = step.row.piece.state != tick::PieceRow::kNone ||
+          (step.row.contact.flags & rt::kFlagRestoring) != 0;
     for (const tick::Command& command : step.commands) {
       const bool lifts = command.kind == tick::CommandKind::lift_piece;
       if ((command.kind != tick::CommandKind::move_piece && !lifts) || step.row.tick == 0) continue;
@@ -173,6 +181,7 @@ Result<edit::PieceStore> moved_in(record::Player& player, volume::Bone& bone, do
       if (prepared && prepared->bricks->hash == command.move.bricks) store.accept(*prepared);
     }
   }
+  if (!out) store.none_is_out();
   return store;
 }
 

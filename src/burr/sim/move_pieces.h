@@ -48,7 +48,8 @@ struct PieceLifted {
 };
 
 // Lifts the free piece that is nearest to `near` out of the bone, so that a hand can hold it. Lets the
-// session run until it is done. Errors as move_piece(), and a piece too thin to be held.
+// session run until it is done. Errors as move_piece(), a piece too thin to be held,
+// and a piece that is in the hand already.
 [[nodiscard]] Result<PieceLifted> lift_piece(Session& session, edit::PieceStore& store,
                                              const math::Vec3& near, Progress& progress);
 // Puts it down where it is now: where the bone stopped it. Errors as move_piece().
@@ -63,12 +64,12 @@ struct PieceLifted {
 [[nodiscard]] edit::PieceMove put_at(std::uint32_t piece, const math::Vec3& centre,
                                      const math::Pose& body);
 
-// True: the recording has a command that moves a piece. Reads all commands.
+// True: the recording has a command that moves or lifts a piece. Reads all commands.
 [[nodiscard]] bool moves_pieces(record::Player& player);
 
 // The pieces that were moved in a recording, without simulating it, up to `until` [s]; below 0: to
-// its end. bone: as it was opened; afterwards it has a state of some moment. What the servo refused
-// is left out. Error: as Player::bone_at().
+// its end, and the one that is out of the bone then, as where the session was killed. bone: as it was opened;
+// afterwards it has a state of some moment. What the servo refused is left out. Error: as Player::bone_at().
 [[nodiscard]] Result<edit::PieceStore> moved_in(record::Player& player, volume::Bone& bone,
                                                 double until = -1);
 

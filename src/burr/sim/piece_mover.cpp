@@ -237,7 +237,7 @@ void PieceMover::see_lifted(const tick::PieceRow& piece) {
     } else if (lifted_->seen && lifted_->leaves) {
       // again where it did not reach the servo
       if (lifted_->left++ % kAgain == 0) session_.command({tick::CommandKind::leave_piece, 0});
-    } else if (lifted_->puts_down && piece.state == tick::PieceRow::kHeld) {
+    } else if (lifted_->puts_down && piece.state != tick::PieceRow::kLies && there) {
       session_.command({tick::CommandKind::let_go, 0});
     } else if (lifted_->puts_down && rested) {
       lifted_->puts_down = false;

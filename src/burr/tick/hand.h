@@ -68,6 +68,8 @@ class Hand {
   }
   // For it, after engage(); nullptr: this hand's tool has no such proxy, or hovers.
   [[nodiscard]] haptics::SixProxy* six() BURR_RT { return hovers() ? nullptr : method_->six(); }
+  // Where it is wanted (touch_method.h).
+  [[nodiscard]] math::Pose goal() const BURR_RT { return method_->goal(state_.world_from_tool); }
   [[nodiscard]] double stiffness() const BURR_RT { return force_.stiffness; }
   // Instead of engage(), with a method whose tool goes to the hand by itself (held_piece.h).
   void hold() BURR_RT { engaged_ = true; }

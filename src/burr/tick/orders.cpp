@@ -108,7 +108,7 @@ void Orders::set_stiffness(double stiffness) BURR_RT {
   // k_r stays, so L changes
   if (!parts_.hand.turned() || springs.lever <= 0) return;
   parts_.touch_by.couple(springs.lever);
-  parts_.piece.couple(springs.lever);
+  parts_.piece.couple(HeldPiece::kFirst, springs.lever);
 }
 
 void Orders::set_radius(double radius) BURR_RT {
@@ -168,7 +168,7 @@ void Orders::shift_piece(const edit::PieceMove& move) BURR_RT {
     goal.p[axis] = move.by[static_cast<std::size_t>(axis)];
     if (!(std::abs(goal.p[axis]) < kFarthest)) return;
   }
-  parts_.piece.shift(goal, parts_.hand.state().world_from_tool);
+  parts_.piece.shift(goal);
 }
 
 void Orders::begin_restore(CommandKind kind) BURR_RT {

@@ -21,9 +21,9 @@ namespace burr::tick {
 
 // A piece that was lifted out of the bone. Zero where there is none.
 struct PieceRow {
-  static constexpr std::int32_t kNone = 0, kLies = 1, kHeld = 2;
-  std::int32_t state = kNone;                 // held: by the hand of this row
-  math::Vec3 p = math::Vec3::Zero();          // its centre
+  static constexpr std::int32_t kNone = 0, kLies = 1, kHeld = 2, kHeldByOther = 3;
+  std::int32_t state = kNone;         // held: by the hand of this row, or by the second hand
+  math::Vec3 p = math::Vec3::Zero();  // its centre
   std::array<double, 4> turn = {0, 0, 0, 0};  // from where it came free: unit quaternion x, y, z, w
 };
 

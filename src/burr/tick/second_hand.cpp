@@ -13,6 +13,7 @@ using math::Vec3;
 // of a ball's proxy in a tick: the first hand's tick is the one that must not be late
 constexpr int kMoves = 6;
 constexpr double kLever = 60e-3;  // of the spring of turning, as of the first hand's tools    [m]
+constexpr int kOrientation = 6;   // degrees of freedom of a device that tells how it is turned
 constexpr double kRecovery = 5;   // of bone that grew under the tool pushes it out     [voxel/s]
 
 SecondHandSettings capped(SecondHandSettings settings, const device::DeviceSpec& spec,
@@ -84,11 +85,16 @@ SecondHand::SecondHand(const Shared& shared, device::Device& device,
             {.rate_hz = controls_.settings.rate_hz,
              .velocity_filter_hz = settings_.velocity_filter_hz,
              .limit = settings_.limit,
-             .guarded = tool_ != nullptr && controls_.settings.guarded,
-             .guard_slack = controls_.settings.guard_slack}) {
+             .guarded = controls_.settings.guarded,
+             .guard_slack = controls_.settings.guard_slack}),
+      piece_(shared.piece),
+      beside_(shared.beside) {
+  piece_.join(device.spec().sensed >= kOrientation);
+  const double lever = coupling_of(hand_.spec(), controls_.settings).lever;
+  if (hand_.turned()) piece_.couple(HeldPiece::kSecond, lever);
   if (!tool_) return;
   hand_.use(*tool_, tool_.get());
-  if (hand_.turned()) tool_->couple(coupling_of(hand_.spec(), controls_.settings).lever);
+  if (hand_.turned()) tool_->couple(lever);
   cutting_ = std::make_unique<Cutting>(shared.surface.bone(), shared.undo, shared.writer, controls_,
                                        hand_, 1);
   cutting_->set_beside(&shared.beside);
@@ -104,15 +110,43 @@ void SecondHand::read(bool lost, bool parted) BURR_RT {
   controls_.shed = session_.shed;
   controls_.mirror = session_.mirror;
   controls_.irrigated = session_.irrigated;
-  if (cutting_) cutting_->turn(usable_ ? hand_.state().pedal : 0);
+  const bool down = usable_ && hand_.state().pedal > 0;
+  waits_ = piece_.lifted() || (waits_ && down);
+  if (cutting_) cutting_->turn(usable_ && !waits_ ? hand_.state().pedal : 0);
+}
+
+// A piece that this hand grips is in it in place of its tool.
+bool SecondHand::will_carry() BURR_RT {
+  const bool holds = piece_.lifted() && piece_.grips(HeldPiece::kSecond, hand_.state(), usable_);
+  grabs_ = holds && !holds_;
+  if (holds != holds_) {
+    hand_.lift();
+    if (holds)
+      hand_.use(piece_);
+    else if (tool_)
+      hand_.use(*tool_, tool_.get());
+    else
+      hand_.use(proxy_);
+  }
+  holds_ = holds;
+  if (!holds) return false;
+  if (!hand_.engaged()) {
+    piece_.grab(hand_.state().world_from_tool);
+    hand_.hold();
+  }
+  const double mu = beside_.friction();
+  piece_.set_friction(mu, session_.settings.kinetic_share * mu);
+  return true;
 }
 
 bool SecondHand::will_feel() BURR_RT {
+  const bool carries = will_carry();
   if (!usable_) {
     hand_.skip_touch();
     return false;
   }
   hand_.filter_velocity();
+  if (carries) return true;
   if (!hand_.engage()) return false;
   if (cutting_) {
     const double mu = cutting_->friction();
@@ -123,6 +157,16 @@ bool SecondHand::will_feel() BURR_RT {
 
 void SecondHand::feel_beside(Hand& first, bool feels) BURR_RT {
   const bool feels_too = will_feel();
+  const Bodies bodies = !piece_.lifted()                        ? Bodies::tools
+                        : piece_.holder() == HeldPiece::kSecond ? Bodies::tool_and_piece
+                                                                : Bodies::piece_and_tool;
+  // a tool that rests on the piece goes on to do so while hands take it and let it go
+  if (bodies != bodies_) two_.part();
+  bodies_ = bodies;
+  if (feels_too && !feels && piece_.loose()) {
+    if (!push_piece()) hand_.feel();
+    return;
+  }
   if (!feels || !feels_too) two_.part();
   if (feels && feels_too && feel_together(first)) return;
   if (feels) first.feel();
@@ -135,8 +179,8 @@ bool SecondHand::feel_together(Hand& first) BURR_RT {
     two_.part();
     return false;
   }
-  const haptics::HeldTool one = {*a, first.state().world_from_tool, first.stiffness()},
-                          other = {*b, hand_.state().world_from_tool, hand_.stiffness()};
+  const haptics::HeldTool one = {*a, first.goal(), first.stiffness()},
+                          other = {*b, hand_.goal(), hand_.stiffness()};
   if (!two_.near(one, other)) return false;
   haptics::SixTouch touch, touch_too;
   two_.step(one, other, touch, touch_too);
@@ -145,14 +189,36 @@ bool SecondHand::feel_together(Hand& first) BURR_RT {
   return true;
 }
 
+// This hand's tool against a piece that nobody holds. False: they cannot meet in this tick.
+bool SecondHand::push_piece() BURR_RT {
+  haptics::SixProxy* tool = hand_.six();
+  if (tool == nullptr) {
+    two_.part();
+    return false;
+  }
+  const haptics::HeldTool piece = piece_.as_loose(),
+                          other = {*tool, hand_.goal(), hand_.stiffness()};
+  if (!two_.near(piece, other)) return false;
+  haptics::SixTouch touch, touch_too;
+  two_.step(piece, other, touch, touch_too);
+  piece_.pushed(touch);
+  hand_.feel(touch_too);
+  return true;
+}
+
 void SecondHand::send() BURR_RT {
   std::uint32_t& flags = row_.contact.flags;
-  if (!cutting_) {
+  if (!cutting_ && !holds_) {
     sent_ = hand_.send(hand_.wanted(), flags);
     return;
   }
-  const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost_ || !usable_, flags);
+  const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost_ || !usable_ || grabs_, flags);
   Hand::Beside beside;
+  if (!cutting_) {
+    sent_ = hand_.send(guarded, beside, flags);
+    touched_ = hand_.touch_part(sent_, beside);
+    return;
+  }
   beside.force = cutting_->drag(guarded) + cutting_->vibration();
   if (usable_) beside.twist = cutting_->torque();
   if (hand_.turned()) beside.moment = cutting_->moment();
@@ -163,6 +229,7 @@ void SecondHand::send() BURR_RT {
 // What the account gains meanwhile is this hand's doing.
 void SecondHand::cut(bool may, std::uint64_t path_mark) BURR_RT {
   if (!cutting_) return;
+  may = may && !waits_;
   const edit::Account before = writer_.account();
   cutting_->cut(row_.tick, touched_, may, path_mark, row_.contact.flags);
   const edit::Account& now = writer_.account();

@@ -6,6 +6,10 @@
 //               the first hand's tool feel each other (haptics/six/two_tools.h), unless that is felt by
 //               the head alone
 //
+// Where a piece of bone was lifted (held_piece.h), either hand holds it: by its button. It feels it in place
+// of its tool, and the tool of the other hand meets it. What this hand's tool meets while nobody holds it, is
+// pushed. Its tool neither turns nor cuts meanwhile, and not before its button was up after that.
+//
 // It has its own proxy, law of force, guard and safety layer (hand.h). The servo takes each step of a
 // tick with it directly after the first hand's, so that the same readings give the same bits. What it
 // cuts is in the ledger and the strokes of the session; what it cut alone is in its own row.
@@ -32,6 +36,7 @@
 #include "burr/tick/cutting.h"
 #include "burr/tick/fault_report.h"
 #include "burr/tick/hand.h"
+#include "burr/tick/held_piece.h"
 #include "burr/tick/rows.h"
 #include "burr/tick/settings.h"
 #include "burr/tool/shaped_tool.h"
@@ -58,6 +63,7 @@ class SecondHand {
     edit::BoneWriter& writer;
     const Controls& controls;  // of the session; laws, mirror and load hold for both hands
     const Cutting& beside;     // of the first hand
+    HeldPiece& piece;
   };
   // device: open
   SecondHand(const Shared& shared, device::Device& device, const SecondHandSettings& settings);
@@ -85,8 +91,13 @@ class SecondHand {
   [[nodiscard]] const SecondHandSettings& settings() const { return settings_; }
 
  private:
+  // What is solved together, if anything is.
+  enum class Bodies { tools, tool_and_piece, piece_and_tool };  // of the first hand, of this one
+
   [[nodiscard]] bool will_feel() BURR_RT;
+  [[nodiscard]] bool will_carry() BURR_RT;
   [[nodiscard]] bool feel_together(Hand& first) BURR_RT;
+  [[nodiscard]] bool push_piece() BURR_RT;
 
   SecondHandSettings settings_;
   const Controls& session_;
@@ -98,6 +109,12 @@ class SecondHand {
   std::unique_ptr<Cutting> cutting_;  // none: it never cuts
   haptics::TwoTools two_;
   edit::Account own_;  // what this hand did of the session's account
+  HeldPiece& piece_;
+  const Cutting& beside_;
+  Bodies bodies_ = Bodies::tools;
+  bool holds_ = false;  // the piece
+  bool grabs_ = false;  // in this tick
+  bool waits_ = false;  // its tool, until its button was up
   bool lost_ = false, usable_ = false;
   math::Vec3 touched_ = math::Vec3::Zero();  // force of touch that was really sent [N]
   Hand::Sent sent_;

@@ -46,7 +46,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),
       cutting_(bone, undo_, writer_, controls_, hand_),
       piece_(surface, proxy_settings(settings), haptics::ShaftTouch::kLever,
-             device.spec().sensed >= kOrientation),
+             device.spec().sensed >= kOrientation, settings.rate_hz),
       restore_(bone, surface, undo_, writer_, controls_.settings, hand_, piece_),
       outbox_(bone, changed_, controls_),
       orders_(bone.grid(), {controls_, hand_, touch_by_, cutting_, restore_, piece_, outbox_}) {
@@ -54,7 +54,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
   if (!hand_.turned()) return;
   const double lever = coupling_of(hand_.spec(), controls_.settings).lever;
   touch_by_.couple(lever);
-  piece_.couple(lever);
+  piece_.couple(HeldPiece::kFirst, lever);
 }
 
 void Servo::set_second(SecondHand* second) {
@@ -83,6 +83,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   } else {
     second_->feel_beside(hand_, feels);
   }
+  piece_.rest(usable ? hand_.state().world_from_tool.p : piece_.position());
 
   // force, bounded, to the hand
   const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost || !usable, flags);
@@ -126,9 +127,13 @@ void Servo::publish() BURR_RT {
   outbox_.publish(row_, tissue_changes());
 }
 
-// A piece that was lifted is in the hand in place of its tool.
+// A piece that was lifted is in the hand in place of its tool, unless the other hand holds it: then the
+// tool is in the hand again, and begins in free air.
 void Servo::choose_touch() BURR_RT {
-  if (piece_.lifted())
+  const bool beside = piece_.lifted() && piece_.holder() == HeldPiece::kSecond;
+  if (beside != beside_piece_) hand_.lift();
+  beside_piece_ = beside;
+  if (piece_.lifted() && !beside)
     hand_.use(piece_);
   else
     hand_.use(touch_by_.now(), touch_by_.tool());
@@ -136,9 +141,8 @@ void Servo::choose_touch() BURR_RT {
 
 // will_feel() with a piece.
 bool Servo::will_carry(bool usable) BURR_RT {
-  if (!piece_.grips(hand_.state(), usable)) {
-    hand_.hold_nothing();
-    piece_.rest(usable ? hand_.state().world_from_tool.p : piece_.position());
+  if (!piece_.grips(HeldPiece::kFirst, hand_.state(), usable)) {
+    if (!beside_piece_) hand_.hold_nothing();
     return false;
   }
   if (!hand_.engaged()) {
@@ -168,7 +172,8 @@ bool Servo::will_feel(bool usable) BURR_RT {
     row_.contact.flags |= rt::kFlagRestoring;
     return false;
   }
-  if (piece_.lifted()) return will_carry(usable);
+  if (piece_.lifted() && (will_carry(usable) || !beside_piece_))
+    return piece_.holder() == HeldPiece::kFirst;
   if (hand_.hovers()) hand_.set_down();
   if (!hand_.engage()) return false;
   const double mu = cutting_.friction();

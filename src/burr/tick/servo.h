@@ -71,7 +71,7 @@ class Servo {
   // the session. It must outlive the last tick.
   void set_second(SecondHand* second);
   [[nodiscard]] SecondHand::Shared shared() {
-    return {surface_, undo_, writer_, controls_, cutting_};
+    return {surface_, undo_, writer_, controls_, cutting_, piece_};
   }
   // Gives every row to one more reader, on a thread of its own; before the session. nullptr: none.
   void set_watch(rt::Latest<TickRow>* watch) { outbox_.set_watch(watch); }
@@ -140,6 +140,7 @@ class Servo {
   Outbox outbox_;
   Orders orders_;
   SecondHand* second_ = nullptr;
+  bool beside_piece_ = false;  // the second hand holds a piece, and the first its tool
   TickRow row_;
   std::uint64_t next_tick_ = 0, last_hash_ = 0;
 };

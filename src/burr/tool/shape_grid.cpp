@@ -7,15 +7,21 @@
 #include <mutex>
 #include <utility>
 
+#include "burr/tool/shape.h"
+
 namespace burr::tool {
 namespace {
 
 using math::Vec3;
 
+struct WithPoints : ShapeGrid {
+  GridPoints points;
+};
+
 struct Kept {
   GridCells cells;
   std::vector<float> phi;
-  ShapeGrid grid;
+  WithPoints grid;
 };
 
 std::size_t node(const std::array<int, 3>& size, int x, int y, int z) {
@@ -89,7 +95,112 @@ void measure(const GridCells& cells, ShapeGrid& grid) {
   }
 }
 
+GridPoints::Block ball_around(const std::vector<Vec3>& points, std::size_t first) {
+  GridPoints::Block block;
+  Vec3 lo = points[first], hi = lo;
+  for (std::size_t n = first; n < points.size(); ++n) {
+    lo = lo.cwiseMin(points[n]);
+    hi = hi.cwiseMax(points[n]);
+  }
+  block.middle = 0.5 * (lo + hi);
+  for (std::size_t n = first; n < points.size(); ++n)
+    block.radius = std::max(block.radius, (points[n] - block.middle).norm());
+  return block;
+}
+
+// The middle of what crosses a cell's edges, on the surface. A small tool would sink between the
+// crossings alone, which are up to a cell and a half apart.
+void find_middle(const Kept& kept, const std::array<int, 3>& cell, GridPoints& out) {
+  const auto& size = kept.cells.size;
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  for (int corner = 0; corner < 8; ++corner)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if ((corner >> axis & 1) != 0) continue;
+      const std::array<int, 3> low = {cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1),
+                                      cell[2] + (corner >> 2)};
+      std::array<int, 3> high = low;
+      ++high[axis];
+      const double a = kept.cells.phi[node(size, low[0], low[1], low[2])],
+                   b = kept.cells.phi[node(size, high[0], high[1], high[2])];
+      if ((a < 0) == (b < 0)) continue;
+      Vec3 at(low[0], low[1], low[2]);
+      at[static_cast<int>(axis)] += a / (a - b);
+      sum += at;
+      ++count;
+    }
+  if (count == 0) return;
+  Vec3 p = sum / count - 0.5 * Vec3(size[0] - 1, size[1] - 1, size[2] - 1);
+  Shape shape;
+  shape.kind = ShapeKind::grid;
+  shape.a = 1;
+  shape.grid = &kept.grid;
+  for (int step = 0; step < 3; ++step) {
+    const Distance there = distance(shape, p);
+    p -= there.phi * there.gradient;
+  }
+  out.points.push_back(p);
+}
+
+// In a block of cells: the crossings on the edges that begin there, and the middle of each cell.
+void find_points(const Kept& kept, const std::array<int, 3>& begin, GridPoints& out) {
+  const GridCells& cells = kept.cells;
+  const auto& size = cells.size;
+  const Vec3 middle = 0.5 * Vec3(size[0] - 1, size[1] - 1, size[2] - 1);
+  std::array<int, 3> end{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    end[axis] = std::min(begin[axis] + GridPoints::kBlock, size[axis]);
+  const std::size_t first = out.points.size();
+  for (int z = begin[2]; z < end[2]; ++z)
+    for (int y = begin[1]; y < end[1]; ++y)
+      for (int x = begin[0]; x < end[0]; ++x)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          std::array<int, 3> next = {x, y, z};
+          if (++next[axis] >= size[axis]) continue;
+          const double here = cells.phi[node(size, x, y, z)],
+                       there = cells.phi[node(size, next[0], next[1], next[2])];
+          if ((here < 0) == (there < 0)) continue;
+          Vec3 at(x, y, z);
+          at[static_cast<int>(axis)] += here / (here - there);
+          out.points.emplace_back(at - middle);
+        }
+  for (int z = begin[2]; z < std::min(end[2], size[2] - 1); ++z)
+    for (int y = begin[1]; y < std::min(end[1], size[1] - 1); ++y)
+      for (int x = begin[0]; x < std::min(end[0], size[0] - 1); ++x)
+        find_middle(kept, {x, y, z}, out);
+  if (out.points.size() == first) return;
+  GridPoints::Block block = ball_around(out.points, first);
+  block.first = static_cast<int>(first);
+  block.count = static_cast<int>(out.points.size() - first);
+  out.blocks.push_back(block);
+}
+
+GridPoints find_points(const Kept& kept) {
+  GridPoints out;
+  constexpr int kBlock = GridPoints::kBlock, kGroup = kBlock * kBlock;
+  const auto& size = kept.cells.size;
+  for (int gz = 0; gz < size[2]; gz += kGroup)
+    for (int gy = 0; gy < size[1]; gy += kGroup)
+      for (int gx = 0; gx < size[0]; gx += kGroup) {
+        const std::size_t point = out.points.size(), first = out.blocks.size();
+        for (int z = gz; z < std::min(gz + kGroup, size[2]); z += kBlock)
+          for (int y = gy; y < std::min(gy + kGroup, size[1]); y += kBlock)
+            for (int x = gx; x < std::min(gx + kGroup, size[0]); x += kBlock)
+              find_points(kept, {x, y, z}, out);
+        if (out.blocks.size() == first) continue;
+        GridPoints::Block group = ball_around(out.points, point);
+        group.first = static_cast<int>(first);
+        group.count = static_cast<int>(out.blocks.size() - first);
+        out.groups.push_back(group);
+      }
+  return out;
+}
+
 }  // namespace
+
+const GridPoints& points_of(const ShapeGrid& grid) BURR_RT {
+  return static_cast<const WithPoints&>(grid).points;
+}
 
 const ShapeGrid* keep_grid(const GridCells& cells) {
   if (!is_body(cells)) return nullptr;
@@ -106,6 +217,7 @@ const ShapeGrid* keep_grid(const GridCells& cells) {
   std::copy(cells.size.begin(), cells.size.end(), kept.grid.size);
   kept.grid.phi = kept.phi.data();
   measure(kept.cells, kept.grid);
+  kept.grid.points = find_points(kept);
   return &kept.grid;
 }
 

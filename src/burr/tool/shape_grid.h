@@ -2,7 +2,7 @@
 //
 // A lattice is kept for as long as the program runs, once for equal content: tools are copied freely,
 // also by the tick, and hold pointers to it. Distances are whole 256ths of a cell, so a recording
-// holds them exactly.
+// holds them exactly. Nothing but keep_grid() makes a ShapeGrid.
 //
 // Units: cells. Frame: of the shape; the middle of the lattice is its origin. Thread: any but the tick.
 #pragma once
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "burr/math/vec3.h"
+#include "burr/rt/rt.h"
 #include "burr/tool/shape_kind.h"
 
 namespace burr::tool {
@@ -34,6 +35,22 @@ struct GridCells {
 [[nodiscard]] const ShapeGrid* keep_grid(const GridCells& cells);
 
 [[nodiscard]] GridCells cells_of(const ShapeGrid& grid);
+
+// Where the body's surface crosses the edges of the lattice, and a place of it in each cell, in blocks that lie together: what another
+// tool meets (haptics/six/lattice_gap.h).  [cell]
+struct GridPoints {
+  struct Block {  // of kBlock cells along each axis; the ball holds all its points
+    math::Vec3 middle = math::Vec3::Zero();
+    double radius = 0;
+    int first = 0, count = 0;  // of points; of a group: of blocks
+  };
+  static constexpr int kBlock = 4;  // cells along a block, blocks along a group
+  std::vector<math::Vec3> points;
+  std::vector<Block> blocks, groups;
+};
+
+// Of a lattice that keep_grid() returned, as all are. Thread: any, also the tick.
+[[nodiscard]] const GridPoints& points_of(const ShapeGrid& grid) BURR_RT;
 
 // Triangles of the body's surface, closed, counter-clockwise seen from outside: places where the
 // distance changes its sign along the lattice's edges, joined by dual faces (surface nets: Gibson

@@ -45,7 +45,7 @@ void Mill::carry_piece() {
   }
   // from when it is taken, so before the hand can grab it
   if (hands_.real != nullptr) hands_.real->carry(has_piece());
-  if (other_hand_carries()) hands_.suction->carry(has_piece());
+  if (hands_.suction != nullptr) hands_.suction->carry(has_piece());
   if (!has_piece()) return;
   PieceMode::Carrier by;
   if (rests) by = carrier(row_, hands_.real->spec(), 0);
@@ -54,14 +54,14 @@ void Mill::carry_piece() {
   pieces_->carry(by);
 }
 
-// A tool in the other hand would cut.
+// While the piece is still on its way out of the bone, a tool in the other hand would cut.
 bool Mill::other_hand_carries() const {
   return hands_.suction != nullptr && hands_.suction->tool() == nullptr;
 }
 
 void Mill::draw_pieces_panel() {
   PiecesState state = pieces_->state();
-  state.carries = hands_.real != nullptr || other_hand_carries();
+  state.carries = hands_.real != nullptr || hands_.suction != nullptr;
   const PiecesPressed pressed = draw_pieces(desk_.ui(), state);
   if (pressed.typed) pieces_->set(pressed.mm, pressed.degrees);
   if (pressed.take) {

@@ -207,7 +207,7 @@ void PieceMode::put_down() {
 void PieceMode::carry(const Carrier& by) {
   if (!taken_ || putting_) return;
   Taken& taken = *taken_;
-  if (out() && by.which == 0) {  // the tick does it
+  if (out()) {  // the tick does it
     taken.grip.reset();
     return;
   }

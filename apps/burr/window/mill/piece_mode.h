@@ -57,7 +57,8 @@ class PieceMode {
   };
   void carry(const Carrier& by);
   [[nodiscard]] bool carried() const {
-    return taken_ && (taken_->grip || held_.state == tick::PieceRow::kHeld);
+    return taken_ && (taken_->grip || held_.state == tick::PieceRow::kHeld ||
+                      held_.state == tick::PieceRow::kHeldByOther);
   }
   // Of the panel: typed numbers, along and about the patient's axes.
   void set(const std::array<double, 3>& mm, const std::array<double, 3>& degrees);

@@ -6,7 +6,8 @@
 //                                      search over the core
 //     two others                       the slimmer one is taken as the capsule around it
 //
-// Spoons and tubes, which are not convex, count as the capsule around them, too.
+// Spoons and tubes, which are not convex, count as the capsule around them, too. Lattices have a
+// distance of their own: lattice_gap.h.
 //
 // Thread: servo. Frame and unit: any, the same for both. Memory: none.
 #pragma once

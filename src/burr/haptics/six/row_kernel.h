@@ -26,6 +26,7 @@ struct RowBounds {
   float p = 0;          // the move's greatest length                       [voxel]
   float t = 0;          // its greatest turn                                  [rad]
   float inverse_L = 0;  // 1 / L                                        [1 / voxel]
+  float most = 0;       // at least p + t |w| of every point                  [voxel]
 };
 
 // Appends the points of a brick that are nearer than `reach` to the part. brick: its first voxel;
@@ -36,7 +37,7 @@ using TakePoints = bool (*)(const volume::VertexBlock* blocks, int count,
                             const PartThere& part, float reach, NearPoints& out) noexcept;
 
 // Appends the rows of a part; rows.full if there is no room. c: as above.
-using MakeRows = void (*)(const NearPoints& near, const float c[3], const PartThere& part,
+using MakeRows = void (*)(NearPoints& near, const float c[3], const PartThere& part,
                           const RowBounds& bounds, Rows& rows) noexcept;
 
 // Appends the places of a part that are nearer to the bone than bounds.p; m is then the place itself,
@@ -54,15 +55,14 @@ struct RowKernel {
   WorstRow worst;
 };
 
-#define BURR_ROW_KERNEL(which)                                                           \
-  namespace which {                                                                      \
-  bool take_points(const volume::VertexBlock*, int, const std::int32_t*, const double*,  \
-                   const float*, const PartThere&, float, NearPoints&) noexcept;         \
-  void make_rows(const NearPoints&, const float*, const PartThere&, const RowBounds&,    \
-                 Rows&) noexcept;                                                        \
-  void press_points(const NearPoints&, const float*, const PartThere&, const RowBounds&, \
-                    Rows&) noexcept;                                                     \
-  int worst_row(const Rows&, const float*, float&) noexcept;                             \
+#define BURR_ROW_KERNEL(which)                                                                   \
+  namespace which {                                                                              \
+  bool take_points(const volume::VertexBlock*, int, const std::int32_t*, const double*,          \
+                   const float*, const PartThere&, float, NearPoints&) noexcept;                 \
+  void make_rows(NearPoints&, const float*, const PartThere&, const RowBounds&, Rows&) noexcept; \
+  void press_points(NearPoints&, const float*, const PartThere&, const RowBounds&,               \
+                    Rows&) noexcept;                                                             \
+  int worst_row(const Rows&, const float*, float&) noexcept;                                     \
   }
 BURR_ROW_KERNEL(scalar)
 BURR_ROW_KERNEL(avx2)

@@ -26,6 +26,13 @@ struct NearPoints {
   alignas(64) float x[kMost + 16], y[kMost + 16], z[kMost + 16];
   alignas(64) float mx[kMost + 16], my[kMost + 16], mz[kMost + 16];  // normal, for a ball only
   alignas(64) float rd[kMost + 16];                                  // of the disc, likewise
+  // Of each 16 points that follow each other: their least distance to the part when they were last looked
+  // at, and kSteepest times the way of the part until then. While the part has not gone farther, none of
+  // them is near, and they are passed over.
+  static constexpr int kGroup = 16;
+  float clear[kMost / kGroup + 1];
+  float way =
+      0;  // of the part since the points were collected: of any place on it, at most  [voxel]
   int count = 0;
 };
 

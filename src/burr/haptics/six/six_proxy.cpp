@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "burr/math/sums.h"
 #include "burr/math/turn.h"
@@ -22,6 +23,7 @@ constexpr int kSuper = 4;            // bricks along the edge of a block of bric
 constexpr int kRounds = 10;          // guesses of how far a move goes
 constexpr double kRest = 0.1;        // of a move left over that counts as rest       [voxel]
 constexpr double kLayer = 0.1;       // above the bone, that carries a face's load         [voxel]
+constexpr double kRounding = 0.01;   // of floats, and more                           [voxel]
 constexpr int kHoldMoves = 3;        // to where friction holds the tool
 
 double length3(const Six& z, std::size_t first) BURR_RT {
@@ -169,7 +171,28 @@ bool SixProxy::look_around(int part, double reach) BURR_RT {
         if (!look_into(part, at, {i, j, k}, reach)) return false;
       }
   near.reach = reach;
+  near.last = {c_, r_};
+  near.way = 0;
+  for (int group = 0; group * NearPoints::kGroup < near.points->count; ++group)
+    near.points->clear[group] = -std::numeric_limits<float>::infinity();
   return true;
+}
+
+// No point that is stored for a part is farther from c while the list holds.  [voxel]
+double SixProxy::most_lever(int part) const BURR_RT {
+  return far_[index(part)] + 2 * near_[index(part)].reach + 1;
+}
+
+// How far the part has gone since its points were last looked at.
+void SixProxy::note_way(int part) BURR_RT {
+  Near& near = near_[index(part)];
+  const Quat turn = math::product(r_, near.last.q.conjugate());
+  const double sine =
+      std::sqrt(math::sum_of_three(turn.x() * turn.x(), turn.y() * turn.y(), turn.z() * turn.z()));
+  // sine of half the angle, which is small while the list holds
+  near.way += math::norm(c_ - near.last.p) + 2.1 * sine * most_lever(part);
+  near.last = {c_, r_};
+  near.points->way = static_cast<float>(near.way);
 }
 
 // Are all points nearer than `need` still among those found?
@@ -189,8 +212,8 @@ bool SixProxy::still_holds(int part, double need) const BURR_RT {
 bool SixProxy::collect(const Limits& limits) BURR_RT {
   rows_->count = 0;
   rows_->full = false;
-  const RowBounds bounds = {static_cast<float>(limits.move), static_cast<float>(limits.turn),
-                            static_cast<float>(1 / lever_)};
+  RowBounds bounds = {static_cast<float>(limits.move), static_cast<float>(limits.turn),
+                      static_cast<float>(1 / lever_), 0};
   for (int part = 0; part < tool_.count; ++part) {
     first_row_[index(part)] = rows_->count;
     if (tool_.parts[index(part)].role == tool::Role::seen) continue;
@@ -202,6 +225,8 @@ bool SixProxy::collect(const Limits& limits) BURR_RT {
     const Vec3 offset = c_ - near.centre;
     const float c[3] = {static_cast<float>(offset.x()), static_cast<float>(offset.y()),
                         static_cast<float>(offset.z())};
+    note_way(part);
+    bounds.most = static_cast<float>(limits.move + limits.turn * most_lever(part) + kRounding);
     kernel_.make(*near.points, c, there(part), bounds, *rows_);
     if (rows_->full) return false;
   }
@@ -363,7 +388,8 @@ bool SixProxy::press(const LeastTwist& last, const Six& wanted) BURR_RT {
   if (settings_.wedge > 0) load = std::min(load, settings_.wedge * std::sqrt(dot6(wanted, wanted)));
   places_->count = 0;
   places_->full = false;
-  const RowBounds bounds = {static_cast<float>(kLayer), 0, static_cast<float>(1 / lever_)};
+  const RowBounds bounds = {static_cast<float>(kLayer), 0, static_cast<float>(1 / lever_),
+                            static_cast<float>(kLayer + kRounding)};
   for (int part = 0; part < tool_.count; ++part) {
     if (tool_.parts[index(part)].role == tool::Role::seen) continue;
     const double need = kLayer + 0.01;
@@ -372,6 +398,7 @@ bool SixProxy::press(const LeastTwist& last, const Six& wanted) BURR_RT {
     const Vec3 offset = c_ - near.centre;
     const float c[3] = {static_cast<float>(offset.x()), static_cast<float>(offset.y()),
                         static_cast<float>(offset.z())};
+    note_way(part);
     kernel_.press(*near.points, c, there(part), bounds, *places_);
     if (places_->full) return false;
   }

@@ -95,6 +95,8 @@ class SixProxy {
     math::Vec3 centre = math::Vec3::Zero();    // c then  p_grid
     math::Quat turn = math::Quat::Identity();  // R then
     double reach = -1;                         // all points nearer than this are in it [voxel]
+    math::Pose last;                           // c and R of the last look at them
+    double way = 0;                            // NearPoints::way
     std::uint64_t revision = 0;
   };
   struct Limits {
@@ -107,6 +109,8 @@ class SixProxy {
   [[nodiscard]] bool look_into(int part, const PartThere& at, const math::Ijk& super,
                                double reach) BURR_RT;
   [[nodiscard]] bool still_holds(int part, double need) const BURR_RT;
+  [[nodiscard]] double most_lever(int part) const BURR_RT;
+  void note_way(int part) BURR_RT;
   [[nodiscard]] bool collect(const Limits& limits) BURR_RT;
   [[nodiscard]] Six wanted(const math::Vec3& x, const math::Quat& q) const BURR_RT;
   [[nodiscard]] LeastTwist solve(const Six& wanted) BURR_RT;

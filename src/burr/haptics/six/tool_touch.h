@@ -41,10 +41,11 @@ class ToolTouch final : public TouchMethod {
   [[nodiscard]] bool set_radius(double) BURR_RT override { return false; }
   void set_max_moves(int moves) BURR_RT { six_.set_max_moves(moves); }
   // The hand feels the torque: L of the springs that it really has (safety/coupling.h)  [m]
-  void couple(double lever) BURR_RT {
+  // feels: whether it does; otherwise L is that of a spring that nobody feels.
+  void couple(double lever, bool feels = true) BURR_RT {
     six_.set_lever(lever);
     lever_ = lever;
-    turns_ = true;
+    turns_ = feels;
   }
 
  private:

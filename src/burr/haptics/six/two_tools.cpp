@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "burr/haptics/six/lattice_gap.h"
 #include "burr/math/sums.h"
 #include "burr/math/turn.h"
 
@@ -161,15 +162,18 @@ void TwoTools::each_pair(const SixProxy& a, const SixProxy& b, const Use& use) B
     }
 }
 
-double TwoTools::least_gap(const SixProxy& a, const SixProxy& b) const BURR_RT {
+double TwoTools::least_gap(const SixProxy& a, const SixProxy& b, double below) const BURR_RT {
   double least = std::numeric_limits<double>::infinity();
-  each_pair(a, b, [&least](const PartPlace& one, const PartPlace& other) BURR_RT {
-    least = std::min(least, part_gap(one, other).gap);
+  each_pair(a, b, [&least, below](const PartPlace& one, const PartPlace& other) BURR_RT {
+    least =
+        std::min(least, has_lattice(one, other) ? lattice_gap(one, other, std::min(below, least))
+                                                : part_gap(one, other).gap);
   });
   return least;
 }
 
-void TwoTools::add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b) BURR_RT {
+void TwoTools::add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b,
+                        double tolerance) BURR_RT {
   if (count_ == kMostPairs) return;
   Pair& pair = pairs_[static_cast<std::size_t>(count_++)];
   const Vec3& n = gap.normal;
@@ -179,16 +183,35 @@ void TwoTools::add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b
   pair.b = {-n.x(), -n.y(), -n.z(), -of_b.x(), -of_b.y(), -of_b.z()};
   pair.normal = n;
   pair.gap = gap.gap;
+  pair.tolerance = tolerance;
 }
 
-void TwoTools::find_pairs(const SixProxy& a, const SixProxy& b) BURR_RT {
+bool TwoTools::find_pairs(const SixProxy& a, const SixProxy& b, const SixProxy::Limits& limits_a,
+                          const SixProxy::Limits& limits_b) BURR_RT {
   count_ = 0;
-  each_pair(a, b, [this, &a, &b](const PartPlace& one, const PartPlace& other) BURR_RT {
-    add_pair(part_gap(one, other), a, b);
-    PartGap ends[4];
-    const int more = gaps_at_ends(one, other, ends);
-    for (int n = 0; n < more; ++n) add_pair(ends[n], a, b);
-  });
+  bool all = true;
+  const auto reach = [](const SixProxy& one, const SixProxy::Limits& limits) BURR_RT {
+    double farthest = 0;
+    for (int part = 0; part < one.tool_.count; ++part)
+      farthest = std::max(farthest, one.far_[SixProxy::index(part)]);
+    return limits.move + limits.turn * (farthest + limits.move + 1) + 0.01;
+  };
+  const double within = reach(a, limits_a) + reach(b, limits_b);
+  each_pair(
+      a, b, [this, &a, &b, &all, within](const PartPlace& one, const PartPlace& other) BURR_RT {
+        if (has_lattice(one, other)) {
+          const int found = lattice_gaps(one, other, within, points_);
+          all = all && found <= static_cast<int>(points_.size()) && count_ + found <= kMostPairs;
+          for (int n = 0; n < found && all; ++n)
+            add_pair(points_[static_cast<std::size_t>(n)], a, b, kTolerance);
+          return;
+        }
+        add_pair(part_gap(one, other), a, b, kExact);
+        PartGap ends[4];
+        const int more = gaps_at_ends(one, other, ends);
+        for (int n = 0; n < more; ++n) add_pair(ends[n], a, b, kExact);
+      });
+  return all;
 }
 
 bool TwoTools::near(const HeldTool& a, const HeldTool& b) BURR_RT {
@@ -204,9 +227,10 @@ bool TwoTools::near(const HeldTool& a, const HeldTool& b) BURR_RT {
         farthest = std::max(farthest, proxy.far_[SixProxy::index(part)]);
     return std::sqrt(dot6(zd, zd)) * (1 + farthest / proxy.lever_);
   };
-  const double gap = least_gap(a.proxy, b.proxy);
+  const double may_meet = kMargin / a.proxy.grid_.voxel + may_go(a) + may_go(b);
+  const double gap = least_gap(a.proxy, b.proxy, may_meet);
   apart_ = apart_ || gap >= 0;
-  const bool near = apart_ && gap < kMargin / a.proxy.grid_.voxel + may_go(a) + may_go(b);
+  const bool near = apart_ && gap < may_meet;
   if (!near) rests_a_ = rests_b_ = {};
   return near;
 }
@@ -250,7 +274,7 @@ void TwoTools::least(const SixProxy& a, const SixProxy& b, const Six& wanted_a, 
       const Pair& pair = pairs_[static_cast<std::size_t>(p)];
       double at = pair.gap;
       for (std::size_t k = 0; k < 6; ++k) at += pair.a[k] * y[k] + pair.b[k] * y[k + 6] / weight_;
-      look(2, p, at, kExact);
+      look(2, p, at, pair.tolerance);
     }
     low = -worst;
     fine = name.whose < 0;
@@ -339,10 +363,13 @@ void TwoTools::move(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wa
         touch.candidates = std::max(touch.candidates, proxy.rows_->count);
         return true;
       }
+      shorten();
+      return false;
+    }
+    void shorten() BURR_RT {
       touch.overflow = true;
       most = {0.5 * now.move, 0.5 * now.turn};
       now = most;
-      return false;
     }
     void measure(const Six& z) BURR_RT {
       p = length3(z, 0);
@@ -364,7 +391,11 @@ void TwoTools::move(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wa
   for (int round = 0; round < kRounds; ++round) {
     const bool ready = one.collect();  // both proxies collect, also where the first is not ready
     if (!other.collect() || !ready) continue;
-    find_pairs(a, b);
+    if (!find_pairs(a, b, one.now, other.now)) {  // too many: shorter moves
+      one.shorten();
+      other.shorten();
+      continue;
+    }
     solve(a, b, wanted_a, wanted_b, twist);
     one.measure(twist.a);
     other.measure(twist.b);
@@ -521,7 +552,7 @@ bool TwoTools::rub_alone(SixProxy& a, SixProxy& b, const math::Pose& before_a,
   bone_a.solved = bone_b.solved = twist.solved;
   a.rub(bone_a, before_a, goal_a.p, goal_a.q, touch_a);
   b.rub(bone_b, before_b, goal_b.p, goal_b.q, touch_b);
-  if (least_gap(a, b) >= 0) {
+  if (least_gap(a, b, 1) >= 0) {
     rests_a_ = rests_b_ = {};
     return true;
   }

@@ -13,6 +13,9 @@
 // Friction holds each tool on the bone as if it were alone (six_friction.h). Between the two tools there
 // is none: docs/touch.md, "Two tools".
 //
+// A part that is a lattice, as a piece of bone in the other hand, gives a row for each of its points
+// that may be reached (lattice_gap.h).
+//
 // While no pair can meet in this tick, each tool is solved alone, to the bit as without the other. Two
 // tools that overlap when they are taken up are not felt until they have been apart once.
 //
@@ -49,11 +52,11 @@ class TwoTools {
 
  private:
   static constexpr int kParts = tool::Tool::kMostParts;
-  static constexpr int kMostPairs = 5 * kParts * kParts;
-  struct Pair {  // a row: a . z_a + b . z_b >= -gap
+  static constexpr int kMostPairs = 5 * kParts * kParts + 2048;  // 2048 points of a lattice
+  struct Pair {                                                  // a row: a . z_a + b . z_b >= -gap
     Six a = {}, b = {};
     math::Vec3 normal = math::Vec3::Zero();  // p_grid
-    double gap = 0;
+    double gap = 0, tolerance = 0;
   };
   struct Twist;  // the solution of one programme
   struct Rubbing;
@@ -62,11 +65,15 @@ class TwoTools {
     int moves = 0;
   };
 
-  void find_pairs(const SixProxy& a, const SixProxy& b) BURR_RT;
-  void add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b) BURR_RT;
+  // All pairs that moves within these limits may close. False: too many.
+  [[nodiscard]] bool find_pairs(const SixProxy& a, const SixProxy& b,
+                                const SixProxy::Limits& limits_a,
+                                const SixProxy::Limits& limits_b) BURR_RT;
+  void add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b, double tolerance) BURR_RT;
   template <class Use>
   static void each_pair(const SixProxy& a, const SixProxy& b, const Use& use) BURR_RT;
-  [[nodiscard]] double least_gap(const SixProxy& a, const SixProxy& b) const BURR_RT;
+  // Of a lattice it is exact below `below` only.
+  [[nodiscard]] double least_gap(const SixProxy& a, const SixProxy& b, double below) const BURR_RT;
   void solve(SixProxy& a, SixProxy& b, const Six& wanted_a, const Six& wanted_b,
              Twist& twist) BURR_RT;
   void least(const SixProxy& a, const SixProxy& b, const Six& wanted_a, const Six& wanted_b,
@@ -83,6 +90,7 @@ class TwoTools {
            SixTouch& touch_b) BURR_RT;
 
   std::array<Pair, kMostPairs> pairs_;
+  std::array<PartGap, 2048> points_;
   int count_ = 0;
   double weight_ = 1;   // square root of k_b / k_a
   bool apart_ = false;  // they have been, since both are held
