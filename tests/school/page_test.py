@@ -184,7 +184,7 @@ def check_marking(page, server, store):
     same([one for one in known if one in shown], [], "what tells a rater whose it is")
     for language in ("sv", "de", "en"):
         speak(page, language)
-        page.wait("document.querySelectorAll('.pictures img').length === 10 && [...document.querySelectorAll('.pictures img')].every(one => one.naturalWidth > 0) && document.documentElement.lang === " + json.dumps(language), WAIT)
+        page.wait("document.body.dataset.shown && document.querySelectorAll('.pictures img').length === 10 && [...document.querySelectorAll('.pictures img')].every(one => one.naturalWidth > 0) && document.documentElement.lang === " + json.dumps(language), WAIT)
         look(page, "rate_" + language)
     address = next(url for _, url in page.requests if "rating/picture" in url)
     status, picture = ask(server, "/" + address.removeprefix(server.base))
@@ -267,6 +267,7 @@ def look(page, name):
 
 
 def speak(page, language):
+    page.run("delete document.body.dataset.shown")  # what is shown until then is in the old language
     page.run(f"(() => {{ const one = document.getElementById('language'); one.value = '{language}'; one.dispatchEvent(new Event('change')); }})()")
 
 
