@@ -46,8 +46,9 @@ if(Python3_FOUND)
   if(NOT BURR_SANITIZE AND TARGET burr_program)
     # statements for a learning record store, cmi5, and attacks on the instructor's page
     add_test(NAME school_xapi COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/school/xapi_test.py $<TARGET_FILE:burr_program>)
+    add_test(NAME school_forget COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/school/forget_test.py $<TARGET_FILE:burr_program>)
     add_test(NAME serve_attacked COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/school/attack_serve.py $<TARGET_FILE:burr_program> --seconds 30)
-    set_tests_properties(school_xapi serve_attacked PROPERTIES TIMEOUT 900 LABELS long)
+    set_tests_properties(school_xapi school_forget serve_attacked PROPERTIES TIMEOUT 900 LABELS long)
     add_test(NAME surgeon.tells_apart COMMAND ${Python3_EXECUTABLE} ${checks}/surgeons.py $<TARGET_FILE:burr_program>
       ${CMAKE_BINARY_DIR}/surgeons)
     set_tests_properties(surgeon.tells_apart PROPERTIES TIMEOUT 900)

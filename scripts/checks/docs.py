@@ -80,7 +80,7 @@ def check_command(name, line, added):
     if program not in ("burr", "build/release/burr") or len(words) < 2:
         return
     command = []
-    for word in words[1:3]:
+    for word in words[1:4]:
         if re.fullmatch(r"[a-z][a-z-]*", word) and help_of(*command, word) is not None:
             command.append(word)
         else:

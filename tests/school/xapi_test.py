@@ -350,6 +350,13 @@ def wait_until(what):
     raise AssertionError("it did not come to that")
 
 
+def a_sentence_about_all_is_not_kept(centre):
+    centre.take_in(session("heron-4821", "a"))
+    centre.lrs.faults.append({"status": 500, "body": "heron-4821 is too much"})
+    assert "too much" in centre.send(code=74).stderr
+    same(centre.status()["trouble"], "the server answers 500", "trouble")
+
+
 def killed(centre):
     centre.take_in(*[session("heron-4821", n, steps=0) for n in range(30)])
     centre.lrs.faults.append({"slow": 1})  # 60 statements: of 50 it is being told, 10 follow
@@ -520,7 +527,7 @@ def cmi5_is_whole(centre):
 
 TESTS = [off_makes_nothing, what_a_session_says, profile_names_all, coming_in_sends, many_go_in_batches, error_500, error_503, cut_before,
          cut_within_the_answer, cut_after_it_was_stored, slow, not_an_lrs, too_many, nobody_listens, waits_grow, wrong_credentials,
-         conflict_with_the_same, conflict_with_another, too_large, one_is_refused, the_sentence_names_nobody, killed, killed_at_any_moment,
+         conflict_with_the_same, conflict_with_another, too_large, one_is_refused, the_sentence_names_nobody, a_sentence_about_all_is_not_kept, killed, killed_at_any_moment,
          two_at_once, forget_takes_back, forget_after_a_kill, the_key_is_kept, no_redirection, cmi5, cmi5_browse, cmi5_with_faults, cmi5_is_whole]
 
 if __name__ == "__main__":

@@ -40,7 +40,8 @@ class PostgresServer {
     return said != nullptr && std::strcmp(said, "1") == 0;
   }
 
-  PostgresServer() : programs_(programs()) {
+  // more: further words for initdb
+  explicit PostgresServer(const std::vector<std::string>& more = {}) : programs_(programs()) {
     if (programs_.empty()) return;
     if (::geteuid() == 0) {
       const passwd* user = ::getpwnam("postgres");
@@ -50,8 +51,18 @@ class PostgresServer {
       gid_ = user->pw_gid;
       if (::chown(folder_.str().c_str(), uid_, gid_) != 0) return;
     }
-    made_ = call({programs_ + "/initdb", "-D", data(), "-U", "burr", "-A", "trust", "-E", "UTF8",
-                  "--no-sync"});
+    std::vector<std::string> words = {programs_ + "/initdb",
+                                      "-D",
+                                      data(),
+                                      "-U",
+                                      "burr",
+                                      "-A",
+                                      "trust",
+                                      "-E",
+                                      "UTF8",
+                                      "--no-sync"};
+    words.insert(words.end(), more.begin(), more.end());
+    made_ = call(words);
     if (!made_) return;
     std::ofstream settings(data() + "/postgresql.conf", std::ios::app);
     settings << "listen_addresses = ''\nunix_socket_directories = '" << folder_.str()

@@ -96,8 +96,7 @@ class Pass {
       if (stopped_) break;
     }
     const std::int64_t until = out_.trouble.empty() ? 0 : until_;
-    if (const Status kept = school::set_pause(store_, until, out_.trouble); !kept)
-      return kept.error();
+    if (const Status kept = school::set_pause(store_, until, kept_); !kept) return kept.error();
     return out_;
   }
 
@@ -169,6 +168,9 @@ class Pass {
   Status stop(std::span<const Waiter> rows, const std::string& why, std::int64_t after) {
     stopped_ = true;
     out_.trouble = why;
+    // a server's sentence may name somebody of fifty: it is shown, and only its number is kept
+    const bool answered = why.size() > 3 && why.find_first_not_of("0123456789") == 3;
+    kept_ = answered ? "the server answers " + why.substr(0, 3) : why;
     std::int64_t tries = 1;
     for (const Waiter& row : rows) tries = std::max(tries, row.tries);
     const std::int64_t now = school::now_ms();
@@ -185,6 +187,7 @@ class Pass {
   Sent out_;
   bool stopped_ = false;
   std::int64_t until_ = 0;
+  std::string kept_;
 };
 
 // Numbers by value, so 1 is 1.0; of an object only what was sent.
