@@ -148,6 +148,10 @@ TEST(LatticeGap, OfTwoLattices) {
     const PartPlace a = {lattice, Vec3::Zero(), Quat::Identity()},
                     b = {lattice, Vec3(12 + apart, 0, 0), Quat::Identity()};
     EXPECT_NEAR(lattice_gap(a, b, 10), apart, 0.02);
+    const PartPlace alone = {kBall, b.middle, Quat::Identity()};
+    EXPECT_GT(static_cast<double>(all_gaps(a, b, 3).size()),
+              1.8 * static_cast<double>(all_gaps(a, alone, 3).size()))
+        << "the points of both";
     bool of_a = false, of_b = false;
     for (const PartGap& gap : all_gaps(a, b, 3)) {
       EXPECT_LT(gap.normal.x(), 0);

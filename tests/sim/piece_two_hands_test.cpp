@@ -398,8 +398,10 @@ TEST(PieceTwoHands, ARecordingReplaysToTheBit) {
         << "it was met";
     go({0, 0, 7.3}, 0, none, 1);
     go(none, 0, none, 0);
-    go(none, 0, {0, 0, -4}, 0);  // it is pushed
-    go(none, 1, none, 0);        // the first carries
+    const double before = session.servo().piece().pose().p.z();
+    go(none, 0, {0, 0, -6}, 0);  // it is pushed
+    EXPECT_LT(session.servo().piece().pose().p.z(), before - 0.05 * kMm) << "it was pushed";
+    go(none, 1, none, 0);  // the first carries
     go({0.3, 1, 0.2}, 1, none, 0);
     EXPECT_EQ(session.servo().piece().holder(), tick::HeldPiece::kFirst);
     const auto put = put_down(session, store, *lifted, quiet);

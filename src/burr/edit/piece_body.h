@@ -6,7 +6,7 @@
 // found on a neighbour (closest points carried along in sweeps: Danielsson 1980).
 //
 // The lattice is kept for as long as the program runs (tool/shape_grid.h), 1.2 MB at most for each
-// piece that is lifted. Thread: any but the tick. Frame of the tool: origin at the piece's centre, axes
+// piece that is lifted, and about as much again for the points of its surface. Thread: any but the tick. Frame of the tool: origin at the piece's centre, axes
 // of the world where the piece came free. Units: SI.
 #pragma once
 

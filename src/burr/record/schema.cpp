@@ -223,7 +223,8 @@ const TickColumn kTickColumns[] = {
      true},
     // a piece that was lifted out of the bone
     {{71, "piece_state", Type::i32,
-      "a piece was lifted out of the bone: 1 it lies, 2 this hand holds it, 3 the second hand; absent: 0, none"},
+      "a piece was lifted out of the bone: 1 it lies, 2 this hand holds it, 3 the second hand; "
+      "absent: 0, none"},
      BURR_AT(piece.state),
      false,
      true},
