@@ -1,5 +1,5 @@
 // Meshes as they are, with all their triangles. In place of render/coarse_mesh.cpp, which thins them
-// with meshoptimizer: the page's bone has few enough.
+// with meshoptimizer; a page that is slow thins them when it draws (view_api.cpp, render/thin_patch.h).
 #include <utility>
 
 #include "burr/render/coarse_mesh.h"

@@ -20,8 +20,10 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "burr/base/hash.h"
 #include "burr/base/progress.h"
 #include "burr/math/rotation.h"
 #include "burr/phantom/build.h"
@@ -72,6 +74,8 @@ struct Core {
   std::vector<web::ChangedBrick> bricks;  // that have changed, for the steps
   std::deque<int> due;                    // patches to mesh, oldest request first
   std::vector<bool> queued;
+  std::vector<std::uint64_t>
+      given_hashes;  // of each patch's surface as the page has it; 0: it has none
   std::vector<int> named;
   surface::Patch patch;
   render::Scene soft;  // its soft structures only
@@ -99,6 +103,22 @@ tick::ServoSettings settings_for(const device::DeviceSpec& spec) {
   return settings;
 }
 
+std::uint64_t hash_of(const surface::Patch& patch) {
+  if (patch.triangles.empty()) return 0;
+  std::uint64_t hash = patch.vertices.size();
+  const auto add = [&hash](const void* from, std::size_t bytes) {
+    const auto* at = static_cast<const std::uint8_t*>(from);
+    for (std::size_t n = 0; n < bytes; n += 4) {  // both are made of words of 4 bytes
+      std::uint32_t word = 0;
+      std::memcpy(&word, at + n, 4);
+      hash = base::mix(hash, std::uint64_t{word});
+    }
+  };
+  add(patch.vertices.data(), patch.vertices.size() * sizeof patch.vertices[0]);
+  add(patch.triangles.data(), patch.triangles.size() * sizeof patch.triangles[0]);
+  return hash;
+}
+
 // All patches, those around the work first.
 void want_all(Core& c) {
   const math::Ijk along = c.mesher->patches();
@@ -120,6 +140,7 @@ void take_bone(Core& c, std::unique_ptr<volume::Bone> bone) {
   c.changed = &c.bone->add_watcher();
   c.mesher = std::make_unique<surface::Mesher>(*c.bone);
   c.queued.resize(static_cast<std::size_t>(c.mesher->patch_count()));
+  c.given_hashes.resize(c.queued.size());
   want_all(c);
 }
 
@@ -181,8 +202,8 @@ EMSCRIPTEN_KEEPALIVE void core_target(const char* tissue, const char* goal, doub
   task.work_case.targets.push_back(std::move(target));
 }
 
-// Meshes the next patch that is due. nullptr: none is. Patches without triangles come too: they may
-// have had some.
+// Meshes the next patch that is due. nullptr: none is. A patch without triangles had some before; number -1: the
+// page has this patch already.
 EMSCRIPTEN_KEEPALIVE const Given* core_patch() {
   Core& c = *core;
   c.changed->take_all([&](std::size_t brick) {
@@ -195,6 +216,13 @@ EMSCRIPTEN_KEEPALIVE const Given* core_patch() {
   c.due.pop_front();
   c.queued[static_cast<std::size_t>(number)] = false;
   while (!c.mesher->mesh_patch(number, c.patch)) {  // nobody writes: it succeeds at once
+  }
+  // A changed brick names its neighbours too, whose surface is often the same: not worth a part of the picture.
+  const std::uint64_t hash = hash_of(c.patch);
+  const bool same = std::exchange(c.given_hashes[static_cast<std::size_t>(number)], hash) == hash;
+  if (same) {
+    c.given = {};
+    return &c.given;
   }
   c.given = {number, c.patch.vertices.data(), c.patch.vertices.size(), c.patch.triangles.data(),
              c.patch.triangles.size()};
@@ -315,10 +343,11 @@ EMSCRIPTEN_KEEPALIVE void core_command(int kind, double value) {
 
 // ---- a recording is watched: core_open() instead of core_make() and core_begin(), then core_seek()
 
-// Opens the recording PageRecorder::kFile, which holds its bone, or has it beside it. 0: core_why() says why not.
-EMSCRIPTEN_KEEPALIVE int core_open() {
+// Opens a recording of the module's file system that holds its bone, or has it beside it (kBoneBeside). 0: core_why() says
+// why not.
+EMSCRIPTEN_KEEPALIVE int core_open(const char* file) {
   core = std::make_unique<Core>();
-  auto player = record::Player::open(web::PageRecorder::kFile);
+  auto player = record::Player::open(file);
   if (!player) {
     core->why = player.error().text;
     return 0;

@@ -61,7 +61,7 @@ set_target_properties(burr_page PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINA
 target_link_options(burr_page PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sFORCE_FILESYSTEM=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2GB
   -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2
-  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS)
+  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
 # The second module, burr_score: the steps of the case, its score and the report. It is loaded when the first cut is possible,
 # so that nobody waits for it. Its texts: the page's case, its rubric, the tools, the words of the window.

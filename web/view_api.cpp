@@ -8,6 +8,7 @@
 #include <emscripten.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -20,6 +21,7 @@
 #include "burr/render/held_tool.h"
 #include "burr/render/renderer.h"
 #include "burr/render/soft_scene.h"
+#include "burr/render/thin_patch.h"
 #include "burr/render/wound.h"
 #include "burr/workshop/work_view.h"
 #include "window/hands/mouse_aim.h"
@@ -29,6 +31,13 @@ namespace {
 
 using namespace burr;
 
+// Levels of a patch with fewer triangles [voxel], made when it has been at rest for this long [s], in this share of
+// the time of a picture, and in no more than that [s].
+constexpr std::array<double, 4> kThinned = {0.25, 0.45, 1, 2};
+constexpr double kThinRest = 0.3, kThinShare = 0.25, kThinMost = 0.06, kThinLeast = 0.004;
+// A picture with fewer triangles is drawn once more with all of them when nothing has changed for this long, longer
+// than two updates of dust and blood lie apart (render/governor.h) [s].
+constexpr double kWholeRest = 2.5;
 constexpr double kSpin = 9;  // 40 000 rpm are too fast to see, as in the window [rad/s]
 
 struct View {
@@ -42,7 +51,12 @@ struct View {
   tick::TickRow row;
   double rate = web::kRate;             // of ticks [Hz]
   std::vector<volume::Tissue> tissues;  // of the next bone
-  std::string why;                      // of the last call that failed
+  double voxel = 0;                     // [m]
+  std::vector<double> changed_at;       // of each patch [s]
+  std::size_t next_to_thin = 0;
+  double now = 0, drawn_at = 0;  // the last picture, and the last in which bone was drawn [s]
+  bool thin_shown = false;       // some of it was drawn with fewer triangles
+  std::string why;               // of the last call that failed
 };
 
 View& view() {
@@ -67,6 +81,9 @@ void show_bone(const volume::TissueTable& tissues, double voxel_mm, double rate)
   const render::Camera camera = v.aim ? v.scene.camera : first_camera();
   const double voxel = 1e-3 * voxel_mm;
   v.scene = {};
+  v.voxel = voxel;
+  v.changed_at.clear();
+  v.next_to_thin = 0;
   v.scene.camera = camera;
   v.scene.scale_bar = true;
   v.scene.tissue_colours = render::colours_of(tissues);
@@ -75,6 +92,53 @@ void show_bone(const volume::TissueTable& tissues, double voxel_mm, double rate)
   v.aim.emplace(voxel);
   v.row = {};
   v.rate = rate;
+}
+
+// The renderer draws all of a picture whose look has changed: here by less than can be seen.
+void draw_all(render::Scene& scene) {
+  constexpr double kUnseen = 1e-9;
+  double& gloss = scene.look.gloss;
+  gloss = render::Look{}.gloss + (gloss == render::Look{}.gloss ? kUnseen : 0);
+}
+
+// Where pictures are slow: makes coarser levels of some patches. took: the picture before [s]
+void thin_some(View& v, double took) {
+  const render::Quality& quality = v.scene.quality;
+  if (quality.coarse_px <= 0 && quality.coarse_still_px <= 0) return;
+  std::array<double, kThinned.size()> errors = kThinned;
+  for (double& error : errors) error *= v.voxel;
+  const double until =
+      emscripten_get_now() + 1e3 * std::clamp(kThinShare * took, kThinLeast, kThinMost);
+  for (render::SoftStructure& one : v.scene.soft) {
+    if (one.mesh->levels.size() > 1 || emscripten_get_now() > until) continue;
+    auto thin = std::make_shared<render::CoarseMesh>(*one.mesh);
+    const std::vector<std::uint32_t>& all = one.mesh->levels.front().indices;
+    for (render::CoarseLevel& level : render::thinned(thin->vertices, all, errors))
+      thin->levels.push_back(std::move(level));
+    if (thin->levels.size() == 1) thin->levels.push_back(thin->levels.front());  // not once more
+    one.mesh = std::move(thin);
+  }
+  const std::size_t count = std::min(v.scene.patches.size(), v.changed_at.size());
+  for (std::size_t n = 0; n < count && emscripten_get_now() < until; ++n) {
+    const std::size_t at = v.next_to_thin % count;
+    ++v.next_to_thin;
+    const render::ScenePatch& patch = v.scene.patches[at];
+    if (patch.mesh == nullptr || patch.coarser != nullptr) continue;
+    if (v.now - v.changed_at[at] < kThinRest) continue;
+    render::set_coarser(v.scene, static_cast<int>(at),
+                        std::make_shared<const std::vector<render::CoarseLevel>>(
+                            render::thinned(*patch.mesh, errors)));
+  }
+}
+
+// All triangles, once nothing changes any more.
+void show_whole_at_rest(View& v) {
+  render::Quality& quality = v.scene.quality;
+  const bool thin = quality.coarse_px > 0 || quality.coarse_still_px > 0;
+  if (!thin || !v.thin_shown || v.now - v.drawn_at < kWholeRest) return;
+  quality.coarse_px = quality.coarse_still_px = 0;
+  draw_all(v.scene);
+  v.thin_shown = false;
 }
 
 }  // namespace
@@ -133,6 +197,9 @@ EMSCRIPTEN_KEEPALIVE void view_patch(int number, const surface::Vertex* vertices
   View& v = view();
   render::set_patch(v.scene, number, patch_of(vertices, vertex_count, triangles, index_count));
   v.wound->stain(v.scene, number);
+  if (const auto at = static_cast<std::size_t>(number); at >= v.changed_at.size())
+    v.changed_at.resize(at + 1);
+  v.changed_at[static_cast<std::size_t>(number)] = v.now;
 }
 EMSCRIPTEN_KEEPALIVE void view_soft(int tissue, const render::SkinVertex* vertices,
                                     int vertex_count, const std::uint32_t* triangles,
@@ -149,11 +216,7 @@ EMSCRIPTEN_KEEPALIVE void view_soft(int tissue, const render::SkinVertex* vertic
 
 // Draw the whole picture next time. Call it while the bone's first patches come: the renderer takes the
 // bone that it drew last for the whole bone, and draws only what differs.
-EMSCRIPTEN_KEEPALIVE void view_anew() {
-  constexpr double kUnseen = 1e-9;
-  double& gloss = view().scene.look.gloss;
-  gloss = render::Look{}.gloss + (gloss == render::Look{}.gloss ? kUnseen : 0);
-}
+EMSCRIPTEN_KEEPALIVE void view_anew() { draw_all(view().scene); }
 
 // The newest row of the ticks, tick::TickRow.
 EMSCRIPTEN_KEEPALIVE void view_row(const void* bytes) {
@@ -239,9 +302,16 @@ EMSCRIPTEN_KEEPALIVE int view_show(double now, double took, int left_handed) {
   }
   v.governor->end(took, v.renderer->figures().redrawn, now);
   v.scene.quality = v.governor->begin(v.scene.camera, now);
+  v.now = now;
   v.wound->renew(v.scene, now);
+  thin_some(v, took);
+  show_whole_at_rest(v);
   const Status shown = v.renderer->show(v.scene);
   if (!shown) v.why = shown.error().text;
+  if (v.renderer->figures().patches_drawn > 0) {
+    v.drawn_at = now;
+    v.thin_shown = v.scene.quality.coarse_px > 0 || v.scene.quality.coarse_still_px > 0;
+  }
   return shown ? 1 : 0;
 }
 // Of the last picture: share that was drawn anew, patches sent, patches drawn, triangles drawn, step of the
@@ -257,6 +327,8 @@ EMSCRIPTEN_KEEPALIVE const double* view_drawn() {
   return figures;
 }
 // 1: nothing is left out of the picture.
-EMSCRIPTEN_KEEPALIVE int view_refined() { return view().renderer->refined() ? 1 : 0; }
+EMSCRIPTEN_KEEPALIVE int view_refined() {
+  return view().renderer->refined() && !view().thin_shown ? 1 : 0;
+}
 
 }  // extern "C"

@@ -18,6 +18,7 @@
 #include "burr/render/coarse_mesh.h"
 #include "burr/render/coarsening.h"
 #include "burr/render/renderer.h"
+#include "burr/render/thin_patch.h"
 #include "burr/surface/mesher.h"
 #include "render/gpu.h"
 #include "render/shapes.h"
@@ -173,6 +174,61 @@ TEST(CoarseMesh, KeepsTheRimTheTissuesAndTheShape) {
 }
 
 TEST(CoarseMesh, OfNothingIsNothing) { EXPECT_TRUE(coarser(JoinedMesh{}, kErrors).levels.empty()); }
+
+// Each patch by itself, with its own vertices.
+TEST(ThinPatch, KeepsTheRimTheTissuesAndTheShape) {
+  const Scene scene = cave();
+  std::size_t full = 0, left = 0, rims = 0, mixed_count = 0;
+  double worst = 0;
+  for (const ScenePatch& patch : scene.patches) {
+    if (patch.mesh == nullptr) continue;
+    const SkinMesh& mesh = *patch.mesh;
+    const std::vector<CoarseLevel> levels = thinned(mesh, kErrors);
+    full += mesh.index_count();
+    left += levels.empty() ? mesh.index_count() : levels.back().indices.size();
+    const Edges rim = rim_of(mesh.index_count(), [&](std::size_t n) { return mesh.index(n); });
+    rims += rim.size();
+    const auto mixed = [&](std::size_t count, const auto& at) {
+      std::multiset<std::array<std::uint32_t, 3>> found;
+      for (std::size_t t = 0; t + 2 < count; t += 3) {
+        const std::array<std::uint32_t, 3> c = {at(t), at(t + 1), at(t + 2)};
+        const auto of = [&](std::size_t k) { return tissue_of(mesh.vertices()[c[k]]); };
+        if (of(0) == of(1) && of(1) == of(2)) continue;
+        for (std::size_t k = 0; k < 3; ++k)  // the edges that go from one to the other
+          if (of(k) != of((k + 1) % 3)) found.insert({c[k], c[(k + 1) % 3], 0});
+      }
+      return found;
+    };
+    const auto before = mixed(mesh.index_count(), [&](std::size_t n) { return mesh.index(n); });
+    mixed_count += before.size();
+    for (const CoarseLevel& level : levels) {
+      const auto at = [&](std::size_t n) { return level.indices[n]; };
+      EXPECT_EQ(rim_of(level.indices.size(), at), rim);
+      EXPECT_EQ(mixed(level.indices.size(), at), before);
+      const auto place = [&](std::size_t n) {
+        return Vec3(mesh.vertices()[at(n)].p.cast<double>());
+      };
+      for (std::size_t v = 0; v < mesh.vertices().size(); v += 37) {
+        const Vec3 p = mesh.vertices()[v].p.cast<double>();
+        double nearest = 1;
+        for (std::size_t t = 0; t + 2 < level.indices.size(); t += 3)
+          nearest =
+              std::min(nearest, distance_to_triangle(p, place(t), place(t + 1), place(t + 2)));
+        worst = std::max(worst, nearest / level.error);
+      }
+    }
+  }
+  std::printf("of %zu triangles %zu; off by at most %.2f of the error\n", full / 3, left / 3,
+              worst);
+  EXPECT_GT(rims, 1000U);
+  EXPECT_GT(mixed_count, 100U);
+  EXPECT_LT(left, full / 2);
+  EXPECT_LT(worst, 2.5);
+}
+
+TEST(ThinPatch, OfNothingIsNothing) {
+  EXPECT_TRUE(thinned(SkinMesh(surface::Patch{}), kErrors).empty());
+}
 
 // For all patches together nothing is border: far fewer triangles, and the surface is still closed.
 TEST(CoarseMesh, SeamsBetweenWhatIsJoinedAreNoRim) {

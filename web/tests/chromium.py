@@ -198,11 +198,11 @@ class Page:
             raise RuntimeError(answer["exceptionDetails"].get("exception", {}).get("description", "?"))
         return answer["result"].get("value")
 
-    def choose(self, selector, file):
-        """Gives a file to an <input type=file>."""
+    def choose(self, selector, *files):
+        """Gives files to an <input type=file>."""
         root = self.send("DOM.getDocument")["root"]["nodeId"]
         node = self.send("DOM.querySelector", {"nodeId": root, "selector": selector})["nodeId"]
-        self.send("DOM.setFileInputFiles", {"nodeId": node, "files": [str(file)]})
+        self.send("DOM.setFileInputFiles", {"nodeId": node, "files": [str(file) for file in files]})
 
     def wait(self, condition, seconds):
         end = time.monotonic() + seconds

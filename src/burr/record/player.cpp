@@ -3,19 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <vector>
 
 #include "burr/record/assumed_tool.h"
 #include "burr/record/bone_blob.h"
-#include "burr/rt/thread.h"
+#include "burr/record/mcap/whole_chunks.h"
 
 namespace burr::record {
 namespace {
@@ -31,21 +29,6 @@ tick::BrickRow row_of(std::uint64_t tick, BrickIndex brick, const BrickContent& 
   row.has_tissue = with_tissue;
   if (with_tissue) row.tissue = content.tissue;
   return row;
-}
-
-// For each of these chunks: 1 if it is whole, else 0. All that is to be unpacked for it is unpacked, by
-// several threads.
-std::vector<std::uint8_t> readable(const McapReader& reader,
-                                   const std::vector<std::size_t>& chunks) {
-  constexpr unsigned kMostThreads = 4;
-  std::vector<std::uint8_t> whole(chunks.size());
-  std::atomic<std::size_t> next{0};
-  const unsigned threads = std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads);
-  rt::on_threads(static_cast<int>(threads), [&](int) {
-    for (std::size_t n = next++; n < whole.size(); n = next++)
-      whole[n] = reader.read_chunk(chunks[n]).ok() ? 1 : 0;
-  });
-  return whole;
 }
 
 }  // namespace
@@ -184,7 +167,7 @@ void Player::find_holes() {
     holes_.push_back(*hole);
     hole.reset();
   };
-  const std::vector<std::uint8_t> whole = readable(*reader_, step_chunks_);
+  const std::vector<std::uint8_t> whole = whole_chunks(*reader_, step_chunks_);
   for (std::size_t n = 0; n < step_chunks_.size(); ++n) {
     const std::uint64_t start = std::clamp(start_tick(step_chunks_[n]), first_tick_, end_tick_);
     if (whole[n] != 0) {

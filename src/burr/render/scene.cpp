@@ -62,6 +62,11 @@ void set_stains(Scene& scene, int index, std::shared_ptr<const std::vector<Stain
   scene.changes.add(index);
 }
 
+void set_coarser(Scene& scene, int index, std::shared_ptr<const std::vector<CoarseLevel>> levels) {
+  scene.patches[static_cast<std::size_t>(index)].coarser = std::move(levels);
+  scene.changes.add(index);
+}
+
 std::uint64_t versions_of(const Scene& scene, const SceneBlock& block) {
   std::uint64_t sum = 0;
   for (const int patch : block.patches)

@@ -52,6 +52,9 @@ struct ScenePatch {
   // one for each vertex; nullptr: plain bone. Sent again when the pointer changes.
   std::shared_ptr<const std::vector<Stain>> stains;
   math::Aabb box;  // around its vertices
+  // Fewer triangles over the same vertices (thin_patch.h), drawn where the error is small enough; nullptr:
+  // none are made. Sent again when the pointer changes.
+  std::shared_ptr<const std::vector<CoarseLevel>> coarser;
 };
 
 // Several patches with fewer triangles. Drawn in place of the patches where its error is small
@@ -184,6 +187,9 @@ void set_patch(Scene& scene, int index, const surface::Patch& patch);
 void set_patch(Scene& scene, int index, ScenePatch&& patch);
 // Sets the stains of a patch that exists.
 void set_stains(Scene& scene, int index, std::shared_ptr<const std::vector<Stain>> stains);
+
+// Sets the coarser levels of a patch that exists.
+void set_coarser(Scene& scene, int index, std::shared_ptr<const std::vector<CoarseLevel>> levels);
 
 // Sum of the present versions of a block's patches. Versions only grow, so equal sums mean equal
 // patches.

@@ -24,6 +24,16 @@ function copy(burr, pointer, size) {
   };
 }
 
+// The tissues of the bone, for view_tissue().
+export function tissues(burr) {
+  const all = [];
+  for (let n = 0;; ++n) {
+    const at = burr.core_tissue(n);
+    if (at === 0) return all;
+    all.push({name: burr.text(burr.core_tissue_name(n)), told: [...burr.numbers(at, 5)]});
+  }
+}
+
 export class Skin {
   // work: the number of the bone, which each message carries
   constructor(burr, work) {
@@ -35,7 +45,8 @@ export class Skin {
   make_one() {
     const given = this.burr.core_patch();
     if (given === 0) return false;
-    this.fresh.push(copy(this.burr, given, kVertex));
+    const patch = copy(this.burr, given, kVertex);
+    if (patch.number >= 0) this.fresh.push(patch);  // otherwise it looks as before
     return true;
   }
   make_all() {
@@ -74,4 +85,11 @@ export function show(view, one) {
   const call = one.soft ? view.view_soft : view.view_patch;
   view.with_bytes([one.vertices, one.triangles],
                   (vertices, triangles) => call(one.number, vertices, one.count, triangles, one.indices));
+}
+
+// Another bone than the page's: its tissues, from tissues().
+export function begin_bone(view, all, voxel_mm, rate) {
+  for (const {name, told} of all)
+    view.with_bytes([new TextEncoder().encode(name + '\0')], (text) => view.view_tissue(text, ...told));
+  view.view_other_bone(voxel_mm, rate);
 }

@@ -2,7 +2,7 @@
 // nowhere else.
 import {compile, start, trouble} from '../common/burr.js';
 import {fit, wanted_size} from '../common/canvas.js';
-import {show} from '../common/skin.js';
+import {begin_bone, show} from '../common/skin.js';
 import * as words from '../common/words.js';
 
 const {word, number} = words;
@@ -12,7 +12,13 @@ const $ = (id) => document.getElementById(id);
 const canvas = $('picture');
 
 // What the tests and the curious read.
-const burr = window.burr = {pictures: 0, ready: false, figures: {}, refined: () => view.view_refined() === 1};
+const burr = window.burr = {
+  pictures: 0,
+  ready: false,
+  figures: {},
+  refined: () => view.view_refined() === 1,
+  hash: () => worker.postMessage({kind: 'hash', work}),  // gives burr.bone
+};
 
 let view = null, worker = null, compiled = null;
 let seconds = 0, wanted = null, asked = false, playing = 0;  // playing: when it began, less the time shown [ms]
@@ -79,9 +85,7 @@ function hear(data) {
   switch (data.kind) {
     case 'opened':
       seconds = burr.seconds = data.seconds;
-      for (const {name, told} of data.tissues)
-        view.with_bytes([new TextEncoder().encode(name + '\0')], (text) => view.view_tissue(text, ...told));
-      view.view_other_bone(data.voxel, data.rate);
+      begin_bone(view, data.tissues, data.voxel, data.rate);
       $('time').max = seconds;
       $('time').value = 0;
       break;
@@ -102,6 +106,9 @@ function hear(data) {
       moment = data;
       asked = false;
       break;
+    case 'hash':
+      burr.bone = data.bone;
+      return;
     case 'refused':
       burr.refused = word(data.why, ...data.parts);
       say(burr.refused);
@@ -157,7 +164,6 @@ function write() {
   const [time, force, removed, size, rpm] = view.numbers(view.view_figures(), 8);
   burr.figures = {time, force, removed, size, rpm};
   burr.shown = moment?.time;
-  burr.bone = moment?.bone;
   $('force').textContent = number(force, 1);
   $('removed').textContent = number(removed, 1);
   $('size').textContent = number(size, 1);

@@ -103,11 +103,19 @@ int Skin::update(const Scene& scene, std::vector<math::Aabb>& changed) {
     const ScenePatch& patch = scene.patches[i];
     Patch& part = patches_[i];
     const bool anew = part.version != patch.version, stains = part.stains != patch.stains;
-    if (!anew && !stains && !recolour) return;
+    const bool levels = anew || part.coarser != patch.coarser;
+    if (!levels && !stains && !recolour) return;
+    if (levels && !anew && !stains && !recolour) {  // looks the same
+      send_indices(part, patch);
+      return;
+    }
     other_stains_ = other_stains_ || (part.stains == nullptr) != (patch.stains == nullptr);
     part.version = patch.version;
     if (!part.levels.empty()) changed.push_back(part.box);
-    if (anew) send(part, patch);
+    if (anew)
+      send(part, patch);
+    else if (levels)
+      send_indices(part, patch);
     if (anew || stains) send_stains(part, patch);
     if (anew && !part.levels.empty()) changed.push_back(part.box);
     sent += anew ? 1 : 0;
@@ -253,23 +261,40 @@ void Skin::send(Patch& part, const ScenePatch& patch) {
   }
   const SkinMesh& mesh = *patch.mesh;
   part.box = patch.box;
-  part.levels = {{0, 0, static_cast<GLsizei>(mesh.index_count())}};
   find_cone(mesh, part.facing, part.spread, normals_);
 
   const bool fresh = part.array.get() == 0;
   glBindVertexArray(part.array.make());
   glBindBuffer(GL_ARRAY_BUFFER, part.vertices.make());
   fill(GL_ARRAY_BUFFER, mesh.vertices().data(), mesh.vertices().size() * sizeof(SkinVertex));
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.make());
+  if (fresh) lay_out();
+  send_indices(part, patch);
+}
+
+// All its levels, one after the other. The vertex array exists, unless the patch has no surface.
+void Skin::send_indices(Patch& part, const ScenePatch& patch) {
+  part.coarser = patch.coarser;
+  if (patch.mesh == nullptr || part.array.get() == 0) return;
+  const SkinMesh& mesh = *patch.mesh;
+  part.levels = {{0, 0, static_cast<GLsizei>(mesh.index_count())}};
   const bool large = !mesh.large_indices().empty();
   part.type = large ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT;
+  glBindVertexArray(part.array.get());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, part.indices.make());
+  const auto put = [&](auto indices) {  // a copy
+    if (part.coarser != nullptr)
+      for (const CoarseLevel& level : *part.coarser) {
+        part.levels.push_back({level.error, static_cast<GLsizei>(indices.size()),
+                               static_cast<GLsizei>(level.indices.size())});
+        for (const std::uint32_t index : level.indices)
+          indices.push_back(static_cast<typename decltype(indices)::value_type>(index));
+      }
+    fill(GL_ELEMENT_ARRAY_BUFFER, indices.data(), indices.size() * sizeof(indices.front()));
+  };
   if (large)
-    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.large_indices().data(),
-         mesh.large_indices().size() * sizeof(std::uint32_t));
+    put(mesh.large_indices());
   else
-    fill(GL_ELEMENT_ARRAY_BUFFER, mesh.small_indices().data(),
-         mesh.small_indices().size() * sizeof(std::uint16_t));
-  if (fresh) lay_out();
+    put(mesh.small_indices());
 }
 
 // Sends the stains. The vertex array exists, unless the patch has no surface.
@@ -349,8 +374,9 @@ long Skin::ask(Patch& patch, const Vec3& eye, const Planes& planes) {
   if (patch.levels.empty() || outside(patch.box, planes) ||
       (!both_sides_ && turned_away(patch.box, patch.facing, patch.spread, eye)))
     return 0;
-  asked_.push_back({&patch, &patch.levels.front()});
-  return kCall + patch.levels.front().count / 3;
+  const Part::Level& level = patch.passing ? patch.levels.front() : coarsest(patch, eye);
+  asked_.push_back({&patch, &level});
+  return kCall + level.count / 3;
 }
 
 // Draws at the coarsest allowed level: the block, or what it is made of. If only a part of the

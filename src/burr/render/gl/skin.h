@@ -2,7 +2,7 @@
 //
 // Memory: 20 B a vertex, 2 B an index, as in the scene. A patch is sent when its version changes.
 // It is skipped when it is out of sight, turned away as a whole, or hidden. Where allowed, a coarse
-// block is drawn instead of its patches. For use of this room only.
+// block is drawn instead of its patches, or a patch with fewer of its triangles. For use of this room only.
 // Thread: main, with the context current. Units: m; frame: world.
 #pragma once
 
@@ -34,7 +34,7 @@ class Skin {
     std::function<void()> look;
     std::function<bool(const math::Aabb& box)> is;
   };
-  // Allows blocks instead of patches, with an error of at most `error_share` times their distance.
+  // Allows blocks and coarser levels instead of patches, with an error of at most `error_share` times their distance.
   void allow(double error_share) { error_share_ = error_share; }
   // With the program in use, draws what may be seen from `eye` inside the planes (nx, ny, nz, d: n
   // . p + d >= 0 inside). With `hidden`: first what was visible the last time, then what that does
@@ -64,6 +64,7 @@ class Skin {
   struct Patch : Part {
     std::uint64_t version = 0;
     std::shared_ptr<const std::vector<Stain>> stains;
+    std::shared_ptr<const std::vector<CoarseLevel>> coarser;
     Buffer stain_values;
     bool passing = false;  // some of its stains pass, and a coarser mesh must not hide them
   };
@@ -87,6 +88,7 @@ class Skin {
   };
 
   void send(Patch& part, const ScenePatch& patch);
+  static void send_indices(Patch& part, const ScenePatch& patch);
   void send_stains(Patch& part, const ScenePatch& patch);
   static void send(Part& part, const CoarseMesh& mesh);
   void update_soft(const Scene& scene, std::vector<math::Aabb>& changed);
