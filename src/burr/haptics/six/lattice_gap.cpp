@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "burr/math/sums.h"
+#include "burr/math/turn.h"
 #include "burr/tool/shape_grid.h"
 
 namespace burr::haptics {
