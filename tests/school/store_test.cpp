@@ -335,13 +335,13 @@ void fill(Store& store, const std::string& id) {
       "INSERT INTO decision (session_set_json, learner_id, standard_id, outcome, confirmed_by, "
       "reason, made_ms) VALUES ($1, $2, $3, 'passed', 'rater-1', '', 5)",
       {"[\"" + session_id(one) + "\"]", id, "standard of " + one.recording_hash.substr(0, 8)}));
-  for (const char* state : {"sent", "waiting"})
+  for (const char* state : {"sent", "waiting"})  // the other one was never tried
     ASSERT_TRUE(in.run(
-        "INSERT INTO outbox (id, statement_json, state, tries, next_ms) VALUES ($1, $2, $3, 1, 0)",
+        "INSERT INTO outbox (id, statement_json, state, tries, next_ms) VALUES ($1, $2, $3, $4, 0)",
         {uuid_of(session_id(one), state),
          "{\"actor\":{\"account\":{\"homePage\":\"https://centre.example\",\"name\":\"" + id +
              "\"}}}",
-         std::string(state)}));
+         std::string(state), std::int64_t{std::string(state) == "sent"}}));
 }
 
 // Every cell of every table, in one text.
