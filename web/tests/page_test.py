@@ -23,6 +23,8 @@ from hand import PARK, POINTER
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITE, BURR = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
 PICTURES = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
+if PICTURES:
+    PICTURES.mkdir(parents=True, exist_ok=True)
 WAIT = 300  # [s]
 LEAST_TICKS = 20000
 # Of the picture around the burr, in heights of the picture: the shade of a new edge reaches so far, and dust.
