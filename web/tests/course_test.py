@@ -279,7 +279,8 @@ SAMPLES = """(async (recording, ticks) => {
   const {compile, start} = await import('../common/burr.js');
   const burr = await start(await compile());
   burr.module.FS.writeFile('/burr.mcap', Uint8Array.from(atob(recording), (one) => one.charCodeAt(0)));
-  if (burr.core_open() === 0) return burr.text(burr.core_why());
+  const path = new TextEncoder().encode('/burr.mcap\\0');
+  if (burr.with_bytes([path], (at) => burr.core_open(at)) === 0) return burr.text(burr.core_why());
   const none = new Proxy({}, {get: () => () => 0});
   const {exports} = await WebAssembly.instantiate(await compile('burr_sound.wasm'), {env: none, wasi_snapshot_preview1: none});
   exports._initialize?.();
