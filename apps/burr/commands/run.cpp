@@ -333,7 +333,7 @@ Status show_to_instructor(Desk& desk, const Options& options) {
   return fine();
 }
 
-// What a learning management system is told of the sessions of this run.
+// What burr reports about the sessions of this run to a learning management system.
 struct Told {
   double seconds = 0;
   bool done = false;  // of one of them
@@ -475,7 +475,7 @@ void add(CLI::App& app, Todo& todo) {
   live->needs("--live-token-file");
   command->add_option("--cmi5", options->cmi5,
                       "the address with which a learning management system starts a unit "
-                      "(cmi5), in quotes; it is told what docs/xapi.md says");
+                      "(cmi5), in quotes; docs/xapi.md lists what burr reports to it");
   add_bone_option(*command, options->work.bone);
   add_volume_options(*command, options->work.volume);
   command->callback([options, touch, &todo] {

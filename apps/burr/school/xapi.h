@@ -1,4 +1,4 @@
-// apps/burr/school/xapi.h - `burr learner xapi`: what a centre's learning record store is told, and how that goes.
+// apps/burr/school/xapi.h - `burr learner xapi`: switches statements for a centre's learning record store on and off, and sends them.
 #pragma once
 
 #include "burr/school/store.h"

@@ -47,7 +47,7 @@ Response refused_by(const Error& why) {
                         why.text);
 }
 
-// A post says from which page it comes; serve::refused() has seen that it is the own one where it is said.
+// A mark must come with the field Origin. Where it is there, serve::refused() has checked that it names this server.
 bool says_its_page(const Request& request) { return !request.field("origin").empty(); }
 
 std::string text_in(const Json& object, const char* name) {

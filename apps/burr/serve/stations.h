@@ -1,8 +1,8 @@
-// serve/stations.h - running stations that show themselves on the instructor's page, and what the instructor says to them.
+// serve/stations.h - pictures of running stations for the instructor's page, and the instructor's messages to them.
 //
 //     POST /api/station?name=&picture=&seen=&...     from a station: a picture of its window (JPEG; empty: none), or only that
 //                                                    it is there. Answer: {watched, messages}
-//     GET  /api/live                                 the stations, and what was said to them
+//     GET  /api/live                                 the stations, with the instructor's messages to each
 //     GET  /api/live/picture?station=&after=         the newest picture; 202: none after that one
 //     POST /api/live/say {station, text, mark, picture}    a word, and a place in that picture: x, y in 0..1
 //

@@ -1,7 +1,7 @@
 // apps/burr/verify/report.h - a report: what was expected, what was measured, and the series of
 // data.
 //
-//     VerifyReport::Part& part = report.begin("friction", "Friction", "what is asked here");
+//     VerifyReport::Part& part = report.begin("friction", "Friction", "the question that this part answers");
 //     part.near("stick-slip.threshold", 0.300, measured, 0.003, "");  // one line, one verdict
 //     part.plot({...});  part.table({...});  part.cannot("no data: ../shared/data is absent");
 //

@@ -1,4 +1,4 @@
-// apps/burr/window/mill/instructor_notes.h - what the instructor says to this station: a line at the top of the picture, and
+// apps/burr/window/mill/instructor_notes.h - messages of the instructor to this station: a panel above the strip of figures, and
 // marks on the bone. They stay until the user closes them.
 //
 // Thread: main, between Ui::begin() and draw(). Frame: world. Units: m.

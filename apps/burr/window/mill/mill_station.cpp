@@ -39,7 +39,7 @@ void Mill::talk() {
     else
       notes_.say(message.text.empty() ? word(Word::instructor_missed) : std::move(message.text));
   }
-  // who is seen is told so
+  // a line in the window says when the instructor begins to watch
   if (link->watched() != std::exchange(was_watched_, link->watched()) && was_watched_)
     note(word(Word::instructor_watches));
   if (std::string trouble = link->trouble();
