@@ -3,7 +3,8 @@
 // kit: what school.mjs has for every view.
 
 const kBetween = 33;      // between two pictures  [ms]
-const kNone = 250;        // where there was no new one
+const kSoon = 8;          // where the next one is on its way
+const kNone = 250;        // where there is none
 const kListEvery = 2000;  // [ms]
 
 const pause = time => new Promise(go => setTimeout(go, time));
@@ -116,7 +117,7 @@ async function station(kit, name) {
           await pause(Math.max(0, kBetween - (performance.now() - began)));
         } else {
           if (answer.status === 404) state.textContent = say("station_gone");
-          await pause(answer.status === 202 && number ? kBetween : kNone);
+          await pause(answer.status === 202 && number ? kSoon : kNone);
         }
       } catch (trouble) {
         state.textContent = trouble.message;

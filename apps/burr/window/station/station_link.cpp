@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stop_token>
 #include <utility>
@@ -15,6 +16,7 @@ namespace {
 constexpr double kWait = 5;                  // for an answer [s]
 constexpr std::chrono::seconds kBetween{1};  // words without a picture
 constexpr std::chrono::seconds kAfterTrouble{5};
+constexpr std::chrono::nanoseconds kPeriod{1'000'000'000 / StationLink::kPerSecond};
 
 std::string jpeg_that_fits(const render::Image& image) {
   for (const int quality : {75, 55, 35, 20}) {
@@ -79,14 +81,13 @@ bool StationLink::watched() const {
 }
 bool StationLink::wants_picture() const {
   const std::lock_guard lock(mutex_);
-  return watched_ && !picture_ &&
-         std::chrono::steady_clock::now() - offered_ >=
-             std::chrono::duration<double>(1.0 / kPerSecond);
+  return watched_ && !picture_ && std::chrono::steady_clock::now() >= due_;
 }
 std::uint64_t StationLink::offer(render::Image picture) {
   const std::lock_guard lock(mutex_);
   picture_ = std::move(picture);
-  offered_ = std::chrono::steady_clock::now();
+  // from the time at which it was due: a window of 35 pictures a second gives 30 of them, not every second one
+  due_ = std::max(due_ + kPeriod, std::chrono::steady_clock::now());
   changed_.notify_all();
   return ++number_;
 }

@@ -77,7 +77,7 @@ class StationLink {
   std::optional<render::Image> picture_;  // to be sent
   std::uint64_t number_ = 0;
   bool watched_ = false, known_ = false;
-  std::chrono::steady_clock::time_point offered_;
+  std::chrono::steady_clock::time_point due_;  // the next picture
   std::vector<Message> news_;
   std::string trouble_;
   // of the thread
