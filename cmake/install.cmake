@@ -1,11 +1,12 @@
 # `cmake --install` gives others a library: find_package(burr), targets burr::burr and burr::core
 include(CMakePackageConfigHelpers)
-install(TARGETS burr_core burr EXPORT burrTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS burr_read burr_guard RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr)
+install(TARGETS burr_core burr EXPORT burrTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
+install(TARGETS burr_read burr_guard RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr COMPONENT program)
 if(TARGET burr_program)
   set_target_properties(burr_program PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-  install(TARGETS burr_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(FILES ${BURR_BONES} DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/bones)
+  install(TARGETS burr_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(FILES ${BURR_BONES} DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/bones COMPONENT program)
 endif()
 # Public headers: these, and what they include. Every other header may change from one version to the next, and stays here.
 set(BURR_PUBLIC base/check base/hash base/progress base/result base/version
@@ -46,17 +47,17 @@ list(REMOVE_DUPLICATES BURR_INSTALLED)
 foreach(header ${BURR_INSTALLED})
   file(RELATIVE_PATH inside ${PROJECT_SOURCE_DIR}/src ${header})
   get_filename_component(folder ${inside} DIRECTORY)
-  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT development)
 endforeach()
-install(EXPORT burrTargets NAMESPACE burr:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
+install(EXPORT burrTargets NAMESPACE burr:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr COMPONENT development)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/burrConfig.cmake.in ${CMAKE_BINARY_DIR}/burrConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/burrConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/burrConfig.cmake ${CMAKE_BINARY_DIR}/burrConfigVersion.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr)
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr COMPONENT development)
 # examples to start from; the program contains them too
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/cases FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/cases COMPONENT program FILES_MATCHING PATTERN "*.toml")
 # the page, where it was built (cmake --build --preset web); `burr web` copies it
 if(EXISTS ${CMAKE_BINARY_DIR}/../web/site/burr_page.wasm)
-  install(DIRECTORY ${CMAKE_BINARY_DIR}/../web/site/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/web)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/../web/site/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/web COMPONENT program)
 endif()

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Proves that the two commands in README.md are enough for a newcomer: makes a bare Debian 12 in a
 # folder (debootstrap, nothing but the base system), clones this checkout into it as committed, and
-# runs ./run or ./test there.
+# runs ./run or ./test there. Or it installs our packages there, uses them as an ordinary user, and removes them.
 #
-#     sudo scripts/bare_debian.sh run|test|shell [--again]
+#     sudo scripts/bare_debian.sh run|test|package|shell [--again]
 #
+#     package    the packages are those of build/packages (scripts/package.sh)
 #     shell      a prompt in that system, in the clone
 #     --again    keeps the system of the last run (with its packages); the clone is new
 #
@@ -16,8 +17,8 @@ set -euo pipefail
 what=${1:-} again=no
 [ "${2:-}" != --again ] || again=yes
 case "$what:$#:$again" in
-  run:1:no | test:1:no | shell:1:no | run:2:yes | test:2:yes | shell:2:yes) ;;
-  *) echo "usage: sudo scripts/bare_debian.sh run|test|shell [--again]" >&2; exit 2 ;;
+  run:1:no | test:1:no | package:1:no | shell:1:no | run:2:yes | test:2:yes | package:2:yes | shell:2:yes) ;;
+  *) echo "usage: sudo scripts/bare_debian.sh run|test|package|shell [--again]" >&2; exit 2 ;;
 esac
 [ "$(id -u)" = 0 ] || { echo "bare_debian.sh: only root may make a system in a folder; try sudo" >&2; exit 1; }
 for tool in debootstrap git unshare; do
@@ -92,6 +93,13 @@ echo "bare_debian.sh: $(git -c safe.directory='*' -C "$checkout" log -1 --format
 started=$SECONDS
 case $what in
   shell) "${inside[@]}" bash -c 'cd /newcomer/burr && exec bash' ;;
+  package)
+    rm -rf --one-file-system "$bare/packages"
+    mkdir "$bare/packages"
+    cp "$checkout"/build/packages/*.deb "$bare/packages/" ||
+      { echo "bare_debian.sh: there are no packages; scripts/package.sh makes them" >&2; exit 1; }
+    "${inside[@]}" bash /newcomer/burr/packaging/try_in_debian.sh /packages
+    ;;
   *)
     code=0
     "${inside[@]}" bash -c "cd /newcomer/burr && ./$what" || code=$?

@@ -13,12 +13,14 @@
 #include <cstring>
 #include <iostream>
 #include <new>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "burr/base/version.h"
 #include "commands/command.h"
+#include "commands/complete.h"
 #include "commands/console.h"
 #include "commands/examples.h"
 #include "commands/interrupt.h"
@@ -130,6 +132,13 @@ int main(int argc, char** argv) {
   });
 
   app::add_examples(program);
+  if (argc > 1 &&
+      std::string_view(argv[1]) == "__complete") {  // a shell wants to know what may come next
+    for (const std::string& line :
+         app::completions(program, std::vector<std::string>(argv + 2, argv + argc)))
+      fmt::print("{}\n", line);
+    return app::end(0);
+  }
 
   try {
     program.parse(argc, argv);

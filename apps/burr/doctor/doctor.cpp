@@ -21,7 +21,7 @@ namespace {
 
 struct Options {
   double seconds = 10;
-  bool json = false, fix = false, yes = false;
+  bool json = false, fix = false, yes = false, print_rule = false;
 };
 
 Answer agreed(const std::string& rules) {
@@ -50,6 +50,10 @@ std::string usable(const std::vector<Finding>& findings) {
 
 Status run(const Options& options) {
   const System system;
+  if (options.print_rule) {
+    fmt::print("{}", udev_rules());
+    return fine();
+  }
   if (options.fix) {
     const auto said = write_rules(system, options.yes ? agreed : ask);
     if (!said) return said.error();
@@ -114,6 +118,7 @@ void add(CLI::App& app, Todo& todo) {
       ->capture_default_str();
   command->add_flag("--fix", options->fix,
                     "write the udev rule that allows you to open devices; burr asks first");
+  command->add_flag("--print-rule", options->print_rule, "print that rule, and do nothing else");
   command->add_flag("--yes", options->yes, "do not ask")->needs("--fix");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

@@ -77,7 +77,8 @@ std::vector<fs::path> nodes_below(const System& system, const fs::path& device) 
 
 std::string udev_rules() {
   std::string rules =
-      "# Haptic devices for whoever sits at the computer; written by `burr doctor --fix`.\n";
+      "# Haptic devices for whoever sits at the computer; as `burr doctor --print-rule` prints "
+      "it.\n";
   for (const Known& one : kKnown) {
     const std::string product =
         *one.product == '\0'
@@ -115,10 +116,13 @@ std::vector<Finding> look_at_nodes(const System& system) {
     if (!closed.empty()) {
       finding.health = Health::trouble;
       finding.value = "plugged in, but you may not open " + closed;
-      finding.todo = fs::exists(udev_file(system), nobody_asks)
-                         ? "the rule exists: unplug the device and plug it in again, at the "
-                           "computer itself, not over ssh"
-                         : "burr doctor --fix writes the rule that allows it";
+      // the package of Debian brings the rule as well
+      finding.todo =
+          fs::exists(udev_file(system), nobody_asks) ||
+                  fs::exists(system.root / "usr/lib/udev/rules.d/70-burr.rules", nobody_asks)
+              ? "the rule exists: unplug the device and plug it in again, at the "
+                "computer itself, not over ssh"
+              : "burr doctor --fix writes the rule that allows it";
     }
     findings.push_back(std::move(finding));
   }
