@@ -66,7 +66,12 @@ add_test(NAME house.recording_trouble COMMAND ${checks}/recording_trouble.sh ${C
 set_tests_properties(house.recording_trouble PROPERTIES TIMEOUT 300)
 add_test(NAME house.install COMMAND ${checks}/install.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(house.tidy PROPERTIES PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1200 LABELS long)
-set_tests_properties(house.install PROPERTIES LABELS long)
+set_tests_properties(house.install PROPERTIES LABELS long RESOURCE_LOCK files_of_package)
+if(TARGET burr_program AND NOT BURR_SANITIZE)
+  add_test(NAME house.completion COMMAND ${checks}/completion.sh ${CMAKE_BINARY_DIR})
+  add_test(NAME house.package COMMAND ${checks}/package.sh ${CMAKE_BINARY_DIR})
+  set_tests_properties(house.package PROPERTIES TIMEOUT 600 LABELS long RESOURCE_LOCK files_of_package)
+endif()
 
 # ---- Each header compiles alone, with the warnings of the library. A header whose own .cpp
 # includes it first has been tested by that (its headers of the C++ library by house.includes); the

@@ -75,7 +75,8 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
 # what a program that was linked with them needs
 file(WRITE ${CMAKE_BINARY_DIR}/package_control/shlibs
   "libburr ${PROJECT_VERSION_MAJOR} libburr${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\nlibburr_core ${PROJECT_VERSION_MAJOR} libburr${PROJECT_VERSION_MAJOR} (>= ${PROJECT_VERSION})\n")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/package_control/shlibs)
+file(WRITE ${CMAKE_BINARY_DIR}/package_control/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/package_control/shlibs ${CMAKE_BINARY_DIR}/package_control/triggers)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

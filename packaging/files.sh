@@ -8,7 +8,7 @@ burr=$(realpath "$1") out=$2
 rm -rf "$out"
 mkdir -p "$out/man1" "$out/man7"
 # the day of the last change: the same sources give the same packages
-export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$here" log -1 --format=%ct 2>/dev/null || date +%s)}
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -c safe.directory='*' -C "$here" log -1 --format=%ct 2>/dev/null || date +%s)}
 "$here/man.sh" "$burr" "$out/man1"
 mv "$out/man1/burr.7" "$out/man7/"
 gzip -9n "$out"/man?/*

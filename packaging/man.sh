@@ -12,7 +12,7 @@ trap 'rm -rf "$place"' EXIT
 export PATH=$place:$PATH
 version=$("$burr" --version | sed 's/^burr \([^ ]*\).*/\1/')
 # the day of the last change: the same sources give the same pages
-export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$here" log -1 --format=%ct 2>/dev/null || date +%s)}
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -c safe.directory='*' -C "$here" log -1 --format=%ct 2>/dev/null || date +%s)}
 
 page() { # words of a command
   local name=burr line sub

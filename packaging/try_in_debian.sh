@@ -42,7 +42,7 @@ burr --quiet score s.mcap | head -5 || true
 burr __complete mill phantom:t
 man -w burr burr-mill burr-learner-xapi-on 7 burr
 source /usr/share/bash-completion/bash_completion
-_completion_loader burr
+_completion_loader burr || [ $? = 124 ] # it was loaded: try again
 complete -p burr
 if dpkg-query -W python3-burr >/dev/null 2>&1; then python3 -c 'import burr; print("import burr:", burr.__version__)'; fi
 X
