@@ -20,6 +20,7 @@ apt-get -q update
 # the needs alone first, so that what burr itself brings can be told from them
 apt-get -q install -y --no-install-recommends man-db python3 bash-completion $(for one in "$packages"/*.deb; do
   dpkg-deb -f "$one" Depends | tr ',' '\n' | sed 's/ *(.*)//; s/ //g' | grep -vE '^(libburr|burr)'; done | sort -u)
+for one in $names; do ! dpkg-query -W "$one" >/dev/null 2>&1 || apt-get -q purge -y "$one"; done # of an earlier try
 id user >/dev/null 2>&1 || useradd --create-home user
 files >/tmp/before
 
