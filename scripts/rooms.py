@@ -63,7 +63,7 @@ ONLY = {
     ("record", "haptics"): {"contact.h"},
     ("record", "edit"): {"ledger.h", "mirror.h"},
     ("record", "tool"): {"burr_tool.h", "state.h", "shaped_tool.h", "shape_grid.h"},
-    ("sim", "edit"): {"piece_store.h", "piece_move.h"},
+    ("sim", "edit"): {"piece_store.h", "piece_move.h", "bone_memory.h", "crossed.h"},
     ("metrics", "tick"): {"rows.h"},
     ("metrics", "tool"): {"burr_tool.h", "state.h"},
     ("scoring", "record"): {"player.h", "course.h"},

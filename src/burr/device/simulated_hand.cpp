@@ -12,6 +12,8 @@ Status SimulatedHand::open() {
     return error(Trouble::usage, "the simulated hand has no path; give it a motion or a CSV file");
   time_ = 0;
   started_ = false;
+  hand_ = {};
+  force_ = math::Vec3::Zero();
   return fine();
 }
 
@@ -20,30 +22,19 @@ HandState SimulatedHand::state(double dt) BURR_RT {
   const math::Vec3 target = goal.world_from_tool.p;
   if (!started_) {
     started_ = true;
-    position_ = target_ = target;
+    hand_.position = target_ = target;
   } else if (std::isinf(arm_.stiffness)) {
-    velocity_ = (target - position_) / dt;
-    position_ = target;
+    hand_.velocity = (target - hand_.position) / dt;
+    hand_.position = target;
   } else {
-    // semi-implicit Euler in four substeps: stable while stiffness / mass * (dt/4)^2 < 4
-    constexpr int kSteps = 4;
-    const double step = dt / kSteps;
-    const math::Vec3 pace = (target - target_) / dt;
-    const math::Vec3 push = force_ * scale_.load(std::memory_order_relaxed);
-    for (int i = 1; i <= kSteps; ++i) {
-      const math::Vec3 aim = target_ + pace * (step * i);
-      const math::Vec3 pull =
-          arm_.stiffness * (aim - position_) + arm_.damping * (pace - velocity_);
-      velocity_ += (pull + push) * (step / arm_.mass);
-      position_ += velocity_ * step;
-    }
+    hand_.follow(arm_, target_, target, force_ * scale_.load(std::memory_order_relaxed), dt);
   }
   target_ = target;
   time_ += dt;
 
   HandState hand;
-  hand.world_from_tool = {position_, goal.world_from_tool.q};
-  hand.velocity = velocity_;
+  hand.world_from_tool = {hand_.position, goal.world_from_tool.q};
+  hand.velocity = hand_.velocity;
   hand.pedal = goal.pedal;
   return hand;
 }

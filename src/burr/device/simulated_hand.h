@@ -11,16 +11,11 @@
 
 #include <atomic>
 
+#include "burr/device/arm_motion.h"
 #include "burr/device/device.h"
 #include "burr/device/hand_path.h"
 
 namespace burr::device {
-
-struct ArmSettings {
-  double mass = 0.1;       // [kg]
-  double damping = 10;     // [N s/m]
-  double stiffness = 500;  // [N/m]; infinity: rigid
-};
 
 class SimulatedHand final : public Device {
  public:
@@ -43,9 +38,8 @@ class SimulatedHand final : public Device {
   std::size_t hint_ = 0;
   double time_ = 0;
   bool started_ = false;
-  math::Vec3 position_ = math::Vec3::Zero(), velocity_ = math::Vec3::Zero(),
-             force_ = math::Vec3::Zero();
-  math::Vec3 target_ = math::Vec3::Zero();
+  ArmMotion hand_;
+  math::Vec3 force_ = math::Vec3::Zero(), target_ = math::Vec3::Zero();
   std::atomic<double> scale_ = 1.0;
 };
 

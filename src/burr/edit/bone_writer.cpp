@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "burr/math/sums.h"
 #include "burr/rt/flags.h"
@@ -16,24 +17,23 @@ using volume::BrickIndex;
 using volume::kBrickVoxels;
 
 BoneWriter::BoneWriter(volume::Bone& bone, volume::IsoVertices& surface, UndoStore& undo,
-                       ChangedQueue* changed)
-    : bone_(bone),
-      surface_(surface),
-      undo_(undo),
-      changed_(changed),
-      highest_(static_cast<std::size_t>(bone.brick_count())),
-      uniform_(static_cast<std::size_t>(bone.brick_count()), std::uint8_t{0}) {
+                       ChangedQueue* changed, Known known)
+    : bone_(bone), surface_(surface), undo_(undo), changed_(changed), known_(std::move(known)) {
   const double h = bone.grid().voxel;
   unit_m3_ = h * h * h / static_cast<double>(volume::kVoxelUnits);
+  const auto bricks = static_cast<std::size_t>(bone.brick_count());
+  if (known_.highest.size() == bricks) return;
+  known_.highest.assign(bricks, 0);
+  known_.uniform.assign(bricks, 0);
   for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
     const volume::Field* field = bone.brick_field(b);
     if (field == nullptr) continue;
-    highest_[static_cast<std::size_t>(b)] = *std::max_element(field, field + kBrickVoxels);
+    known_.highest[static_cast<std::size_t>(b)] = *std::max_element(field, field + kBrickVoxels);
     const volume::TissueId* tissue = bone.brick_tissue(b);
     int one = -1;
     for (int v = 0; v < kBrickVoxels; ++v)
       if (field[v] != 0) one = one < 0 || one == tissue[v] ? tissue[v] : kMixed;
-    uniform_[static_cast<std::size_t>(b)] = static_cast<std::uint8_t>(std::max(one, 0));
+    known_.uniform[static_cast<std::size_t>(b)] = static_cast<std::uint8_t>(std::max(one, 0));
   }
 }
 
@@ -46,12 +46,13 @@ bool BoneWriter::make_room(BrickIndex brick, std::uint32_t& flags) BURR_RT {
 void BoneWriter::write(BrickIndex brick, const BrickField& now) BURR_RT {
   bone_.write_brick(brick, now);
   if (changed_ != nullptr) changed_->push(brick);
+  if (watch_ != nullptr) watch_->push(brick);
 }
 
 void BoneWriter::write_applied(BrickIndex brick, const BrickField& now,
                                const Applied& applied) BURR_RT {
   write(brick, now);
-  highest_[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(applied.highest);
+  known_.highest[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(applied.highest);
   surface_.changed(brick, applied.most, applied.rows, applied.columns);
 }
 
@@ -72,7 +73,7 @@ void BoneWriter::write_more(BrickIndex brick, const BrickField& now, const Appli
     if (now.voxel[v] != field[v] && field[v] < volume::kIso / 2)
       bone_.set_tissue(first.x() + (v & 7), first.y() + (v >> 3 & 7), first.z() + (v >> 6),
                        material);
-  std::uint8_t& one = uniform_[static_cast<std::size_t>(brick)];
+  std::uint8_t& one = known_.uniform[static_cast<std::size_t>(brick)];
   one = highest(brick) == 0 || one == material ? material : kMixed;
   write_applied(brick, now, applied);
 }
@@ -91,7 +92,7 @@ void BoneWriter::note_whole(BrickIndex brick, const BrickField& before,
     rows |= 1ULL << (v >> 3);
     columns |= 1U << (v & 7);
   }
-  highest_[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(highest);
+  known_.highest[static_cast<std::size_t>(brick)] = static_cast<std::uint16_t>(highest);
   if (most > 0) surface_.changed(brick, most, rows, columns);
 }
 
@@ -110,7 +111,7 @@ void BoneWriter::restore(const KeptBrick& kept) BURR_RT {
       bone_.set_tissue(first.x() + (v & 7), first.y() + (v >> 3 & 7), first.z() + (v >> 6),
                        kept.tissue[v]);
     }
-  if (!same_tissue) uniform_[static_cast<std::size_t>(kept.brick)] = kMixed;
+  if (!same_tissue) known_.uniform[static_cast<std::size_t>(kept.brick)] = kMixed;
   write(kept.brick, kept.field);
   note_whole(kept.brick, before, kept.field);
 }

@@ -45,6 +45,9 @@ class UndoStore {
   // large.
   bool keep(volume::BrickIndex brick) BURR_RT;
 
+  // A brick as it is now; zeros for a brick of air.
+  static void copy(const volume::Bone& bone, volume::BrickIndex brick, KeptBrick& to) BURR_RT;
+
   // Bricks that all remembered strokes may touch together.
   [[nodiscard]] std::size_t room() const BURR_RT { return entries_.size(); }
 
@@ -84,7 +87,6 @@ class UndoStore {
     std::uint64_t first = 0, count = 0, path_mark = 0;
     std::int64_t removed_before = 0, removed = 0, moved = 0;  // [units]
   };
-  static void copy(const volume::Bone& bone, volume::BrickIndex brick, KeptBrick& to) BURR_RT;
   [[nodiscard]] Stroke& stroke(std::uint64_t number) BURR_RT {
     return strokes_[number % strokes_.size()];
   }

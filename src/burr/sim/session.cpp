@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -16,6 +17,7 @@ constexpr std::int64_t kFadeNs = 5'000'000;  // from the detection of a loss to 
 constexpr std::int64_t kGuardNs = 500'000;   // between two checks by the guard
 // ticks between two waits for the heat, when not in real time
 constexpr std::uint64_t kHeatWait = 1000;
+constexpr std::uint64_t kStepsAtOnce = 64;  // of step(), between two that reserve memory
 constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two calls that reserve memory
 
 // A part thinner than a voxel could slip between the points of bone that it touches.
@@ -201,15 +203,7 @@ void Session::loop(std::uint64_t ticks) {
     }
     last_force = row.contact.force;
     last_torque = row.contact.torque;
-    const double force = last_force.norm();
-    peak_force_ = std::max(peak_force_, force);
-    if (row.contact.touching) {
-      force_sum_ += force;
-      ++touching_;
-    }
-    flags_ |= row.contact.flags;
-    ledger_ = row.ledger;
-    done_.fetch_add(1, std::memory_order_relaxed);
+    count(row);
     if (!settings_.realtime && recorder_ != nullptr) recorder_->wait_for_room();
     if (!settings_.realtime && heat_ && n % kHeatWait == 0) heat_->settle();
   }
@@ -224,13 +218,110 @@ void Session::loop(std::uint64_t ticks) {
     second_device_->write_torque(second_->row().contact.torque * left);
     second_device_->write_force(second_->row().contact.force * left);
   }
-  while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {  // rows that must still be
-                                                                   // recorded
+  settle();
+  running_.store(false, std::memory_order_release);
+}
+
+void Session::count(const tick::TickRow& row) {
+  const double force = row.contact.force.norm();
+  peak_force_ = std::max(peak_force_, force);
+  if (row.contact.touching) {
+    force_sum_ += force;
+    ++touching_;
+  }
+  flags_ |= row.contact.flags;
+  ledger_ = row.ledger;
+  done_.fetch_add(1, std::memory_order_relaxed);
+  if (log_) log_->note(row);
+}
+
+// Rows that must still be recorded, and heat that must still be computed.
+void Session::settle() {
+  while (recorder_ != nullptr && servo_->bricks_to_write() > 0) {
     servo_->flush_bricks();
     recorder_->wait_for_room();
   }
   if (heat_) heat_->settle();
-  running_.store(false, std::memory_order_release);
+}
+
+void Session::one_step() {
+  const std::uint64_t n = done_.load(std::memory_order_relaxed);
+  if (between_ && n % between_every_ == 0) between_();
+  const tick::TickRow& row = servo_->tick(false);
+  servo_->publish();
+  ++shed_ticks_[static_cast<std::size_t>(servo_->shed())];
+  count(row);
+  if (recorder_ != nullptr) recorder_->wait_for_room();
+  if (heat_ && n % kHeatWait == 0) heat_->settle();
+}
+
+std::uint64_t Session::step(std::uint64_t ticks, Progress& progress) {
+  BURR_CHECK(!settings_.realtime && !running());
+  std::uint64_t made = 0;
+  while (made < ticks && !device_->finished() && !progress.cancelled()) {
+    const std::uint64_t until = std::min(ticks, made + kStepsAtOnce);
+    // what the thread `ahead` does in a session that runs
+    bone_->commit_ahead();
+    surface_->commit_ahead();
+    servo_->commit_ahead();
+    if (log_) log_->make_room(kStepsAtOnce);
+    for (; made < until && !device_->finished(); ++made) one_step();
+  }
+  return made;
+}
+
+void Session::set_watch(rt::Latest<tick::TickRow>* watch) {
+  watch_ = watch;
+  servo_->set_watch(watch);
+}
+
+void Session::keep_in_memory(bool rows, bool voxels) {
+  BURR_CHECK(!settings_.realtime && !running());
+  servo_->set_brick_watch(nullptr);
+  log_ = rows || voxels ? std::make_unique<RowLog>(*bone_, rows, voxels) : nullptr;
+  if (voxels) servo_->set_brick_watch(&log_->crossed()->written());
+}
+
+edit::BoneState Session::bone_state() {
+  BURR_CHECK(!running());
+  memory_.note(servo_->undo_store());
+  return memory_.now(*bone_);
+}
+
+Status Session::reset_to(const edit::BoneState& state) {
+  BURR_CHECK(!running());
+  const char* why = settings_.realtime     ? "is in real time"
+                    : recorder_ != nullptr ? "is being recorded"
+                    : second_device_       ? "has a second hand"
+                    : heat_                ? "computes heat"
+                                           : nullptr;
+  if (why != nullptr)
+    return error(Trouble::usage,
+                 fmt::format("this session {}, so it cannot start over; make another one", why));
+  memory_.note(servo_->undo_store());
+  memory_.put_back(state, servo_->writer());
+  surface_->refresh_all();
+  device_->close();
+  if (Status opened = device_->open(); !opened) return opened;
+  edit::BoneWriter::Known known = servo_->take_known();
+  servo_.reset();  // before the next one takes its memory
+  servo_ =
+      std::make_unique<tick::Servo>(*bone_, *surface_, *device_, settings_.servo, std::move(known));
+  servo_->set_watch(watch_);
+  moving_ = nullptr;
+  if (log_) {
+    log_->start_over();
+    if (log_->crossed() != nullptr) servo_->set_brick_watch(&log_->crossed()->written());
+  }
+  done_ = 0;
+  shed_ = tick::Shed::none;
+  stats_.clear();
+  shed_ticks_ = {};
+  peak_force_ = force_sum_ = 0;
+  touching_ = 0;
+  flags_ = 0;
+  ledger_ = {};
+  return fine();
 }
 
 // Releases the force when no tick has come in time.

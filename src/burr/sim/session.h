@@ -5,6 +5,7 @@
 //         Session::make(std::move(bone), std::move(hand), settings, progress);
 //     (*session)->run(20.0, progress);                        // headless: to the end, or
 //     (*session)->start(); ... view().take(row) ...; stop();  // in the background, beside a window
+//     (*session)->step(20, progress);                         // 20 ticks on this thread, or
 //
 // Thread: everything on the thread that made it, except where a door says otherwise. While the
 // session runs, only the servo may touch the bone; others read it through copy_brick() and their
@@ -22,11 +23,13 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/edit/bone_memory.h"
 #include "burr/edit/piece_move.h"
 #include "burr/haptics/safety/watchdog.h"
 #include "burr/record/recorder.h"
 #include "burr/rt/stats.h"
 #include "burr/rt/thread.h"
+#include "burr/sim/row_log.h"
 #include "burr/thermal/settings.h"
 #include "burr/thermal/summary.h"
 #include "burr/thermal/worker.h"
@@ -96,7 +99,7 @@ class Session {
 
   // Gives the newest row to one more reader, besides view(). Call it before run() or start();
   // `watch` must outlive the session's last tick. nullptr: none.
-  void set_watch(rt::Latest<tick::TickRow>* watch) { servo_->set_watch(watch); }
+  void set_watch(rt::Latest<tick::TickRow>* watch);
 
   // Calls `what` before the first tick and then before every `every`-th one, on the thread of the
   // ticks, where it may read the bone and send commands. For scripted hands: it may take its time,
@@ -109,6 +112,30 @@ class Session {
   // Runs until the hand has finished, `seconds` of its time are over, or progress is cancelled;
   // returns when the servo has stopped.
   void run(double seconds, Progress& progress);
+
+  // Makes so many ticks on this thread, as fast as possible, and returns how many it made: fewer if
+  // the hand has finished, or progress was cancelled (it is asked every 64 ticks). The ticks are those
+  // of run(), to the bit, however they are divided among calls. Between two calls nothing happens: no
+  // force fades. The time that a tick takes is not measured. Not in real time, and not while the
+  // session runs.
+  std::uint64_t step(std::uint64_t ticks, Progress& progress);
+  // After the last step() of a session with a recorder: gives it the bricks that still wait.
+  void settle();
+
+  // Keeps rows, and voxels that cross the surface, in memory, from the next tick on (row_log.h); not
+  // in real time. Both false: keeps nothing any more. What was kept before is forgotten.
+  void keep_in_memory(bool rows, bool voxels);
+  // nullptr: nothing is kept
+  [[nodiscard]] RowLog* log() { return log_.get(); }
+
+  // The bone as it is now, for reset_to(). Only while the session stands still.
+  [[nodiscard]] edit::BoneState bone_state();
+  // Puts the bone back to a state of this session, {}: to the beginning, and starts over: tick 0, an
+  // empty account, nothing to undo, the settings and the hand as at the beginning; outcome() and
+  // bone_before() count from here. Takes milliseconds, or as long as what was changed is large. Not
+  // while the session runs. Error (usage): a session in real time, with a recorder, a second hand or
+  // heat, which keep an account of their own.
+  [[nodiscard]] Status reset_to(const edit::BoneState& state);
 
   // Runs in the background, until stop(). May be repeated.
   void start();
@@ -163,6 +190,8 @@ class Session {
   Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Device> device,
           const SessionSettings& settings);
   void begin(std::uint64_t ticks);
+  void one_step();
+  void count(const tick::TickRow& row);
   void loop(std::uint64_t ticks);
   void guard();
   void commit_ahead();
@@ -177,6 +206,9 @@ class Session {
   std::unique_ptr<tick::SecondHand> second_;
   std::unique_ptr<haptics::Watchdog> watchdog_;
   record::Recorder* recorder_ = nullptr;
+  rt::Latest<tick::TickRow>* watch_ = nullptr;
+  std::unique_ptr<RowLog> log_;
+  edit::BoneMemory memory_;  // of what earlier servos changed, reset_to()
   std::function<void()> between_;
   std::uint64_t between_every_ = 1;
 

@@ -1,5 +1,7 @@
 #include "burr/tick/servo.h"
 
+#include <utility>
+
 #include "burr/rt/flags.h"
 #include "burr/tick/tick_hash.h"
 
@@ -34,13 +36,13 @@ constexpr int kOrientation = 6;  // degrees of freedom of a device that tells ho
 }  // namespace
 
 Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
-             const ServoSettings& settings)
+             const ServoSettings& settings, edit::BoneWriter::Known known)
     : surface_(surface),
       dt_(1.0 / settings.rate_hz),
       controls_{.settings = settings, .irrigated = settings.irrigated},
       changed_(bone),
       undo_(bone, settings.undo_bricks),
-      writer_(bone, surface, undo_, &changed_),
+      writer_(bone, surface, undo_, &changed_, std::move(known)),
       touch_by_(surface, proxy_settings(settings), settings.touch, &controls_.settings.tools,
                 settings.tool),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),

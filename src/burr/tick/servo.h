@@ -45,8 +45,9 @@ namespace burr::tick {
 
 class Servo {
  public:
+  // known: take_known() of another servo of this bone that has ended; empty: none.
   Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
-        const ServoSettings& settings);
+        const ServoSettings& settings, edit::BoneWriter::Known known = {});
 
   // One tick. lost: ticks were lost just before this one, and the watchdog released the force.
   const TickRow& tick(bool lost) BURR_RT;
@@ -76,6 +77,12 @@ class Servo {
   // Gives every row to one more reader, on a thread of its own; before the session. nullptr: none.
   void set_watch(rt::Latest<TickRow>* watch) { outbox_.set_watch(watch); }
   void set_heat(thermal::Worker* heat) { outbox_.set_heat(heat); }  // before the session
+  // Gets every brick that is written (edit/crossed.h); between ticks. nullptr: none.
+  void set_brick_watch(edit::ChangedQueue* watch) { writer_.set_watch(watch); }
+  // For what puts the bone back to an earlier state, while this servo stands still (edit/bone_memory.h).
+  [[nodiscard]] edit::BoneWriter& writer() { return writer_; }
+  // For the next servo of the bone. This one must not tick any more.
+  [[nodiscard]] edit::BoneWriter::Known take_known() { return writer_.take_known(); }
 
   // How long the last tick took and how late it began, for the recorder and the view; not part of
   // the truth.

@@ -1,0 +1,658 @@
+// Scenes: a bone, a case, a tool and their settings; sessions: a scene with a hand, stepped.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+#include <numbers>
+#include <utility>
+
+#include "burr/device/pushed_hand.h"
+#include "burr/device/simulated_hand.h"
+#include "burr/record/recorder.h"
+#include "burr/scenario/case.h"
+#include "burr/scenario/rack.h"
+#include "burr/sim/session.h"
+#include "burr/surgeon/motion.h"
+#include "burr/tick/flag_words.h"
+#include "burr/volume/copy_of_bone.h"
+#include "burr/workshop/mesh_shape.h"
+#include "burr/workshop/open_bone.h"
+#include "burr/workshop/other_bone.h"
+#include "burr/workshop/prepare.h"
+#include "burr/workshop/recording.h"
+#include "burr/workshop/spared.h"
+#include "common.h"
+#include "rows.h"
+
+namespace burr::python {
+namespace {
+
+using namespace py::literals;
+
+constexpr double kPi = std::numbers::pi;
+
+// ---- hands
+
+struct Hand {
+  std::string motion;     // empty: pushed, or a path
+  device::HandPath path;  // no points: pushed, or a motion
+  double seconds = 10;    // of a motion
+  device::ArmSettings arm;
+};
+
+device::ArmSettings arm_named(const std::string& grip) {
+  device::ArmSettings arm;
+  if (grip == "rigid")
+    arm.stiffness = INFINITY;
+  else if (grip == "light")
+    arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
+  else if (grip != "firm")
+    raise(fmt::format("grip \"{}\" is not known; use firm, light or rigid", grip));
+  return arm;
+}
+
+math::Quat quat_of(const py::object& given) {
+  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
+  if (!array || array.size() != 4) {
+    PyErr_Clear();
+    raise("a quaternion is four numbers: w, x, y, z");
+  }
+  const double* v = array.data();
+  const math::Quat q(v[0], v[1], v[2], v[3]);
+  const double norm = q.norm();
+  if (!(std::abs(norm - 1) < 1e-3)) raise("a quaternion must have the length 1: w, x, y, z");
+  return math::Quat(q.normalized());
+}
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+Hand path_hand(const Doubles& t, const Doubles& points, const py::object& quats,
+               const py::object& pedal, const std::string& grip) {
+  const auto count = static_cast<std::size_t>(t.size());
+  if (count == 0 || points.ndim() != 2 || points.shape(0) != t.size() || points.shape(1) != 3)
+    raise("a path needs t (n) [s] and p (n, 3) [m]");
+  std::optional<Doubles> q, down;
+  if (!quats.is_none()) q = Doubles::ensure(quats);
+  if (!pedal.is_none()) down = Doubles::ensure(pedal);
+  if ((q && static_cast<std::size_t>(q->size()) != 4 * count) ||
+      (down && static_cast<std::size_t>(down->size()) != count))
+    raise("a path needs q (n, 4) as w, x, y, z, and pedal (n), or none of them");
+  Hand hand;
+  hand.arm = arm_named(grip);
+  for (std::size_t n = 0; n < count; ++n) {
+    device::PathPoint point;
+    point.t = t.data()[n];
+    if (!(point.t >= (n == 0 ? 0 : hand.path.points.back().t)))
+      raise("the times of a path begin at 0 or later and never decrease");
+    for (int axis = 0; axis < 3; ++axis)
+      point.world_from_tool.p[axis] = points.data()[3 * n + static_cast<std::size_t>(axis)];
+    if (q) {
+      const double* v = q->data() + 4 * n;
+      point.world_from_tool.q = math::Quat(v[0], v[1], v[2], v[3]).normalized();
+    }
+    if (down) point.pedal = down->data()[n];
+    if (!point.world_from_tool.finite() || !std::isfinite(point.pedal))
+      raise(fmt::format("point {} of the path has a number that is not finite", n));
+    hand.path.points.push_back(point);
+  }
+  return hand;
+}
+
+// ---- scenes
+
+bool names_a_case(const std::string& source) {
+  const auto known = scenario::built_in_cases();
+  std::error_code nobody_asks;
+  return (std::find(known.begin(), known.end(), source) != known.end() &&
+          !std::filesystem::exists(source, nobody_asks)) ||
+         std::filesystem::path(source).extension() == ".toml";
+}
+
+struct Scene {
+  BonePtr bone;
+  std::optional<scenario::Case> work;
+  // as `burr mill` has them, in its units, so that one scene gives one hash
+  double burr_mm = 5, rpm = 40000, rate_hz = 1000, stiffness_n_per_m = 1000, drag = 1,
+         vibration = 0, torque_mnm = 1e3 * tool::Motor{}.torque;
+  bool diamond = false, guarded = false, irrigated = false;
+  int teeth = tool::Burr{}.teeth, threads = 1;
+  std::string tool, tools, touch = "constraint", removal = "energy";
+  std::size_t undo_bricks = tick::ServoSettings{}.undo_bricks;
+};
+
+Scene make_scene(const py::object& source, const py::object& name, std::uint32_t number,
+                 const py::object& burr_mm, const py::object& rpm, const py::object& tool,
+                 const std::string& tools, double voxel_mm, const std::string& materials,
+                 const py::object& call) {
+  Scene scene;
+  scene.tools = tools;
+  scenario::Recipe recipe;
+  recipe.voxel_mm = voxel_mm;
+  recipe.materials = materials;
+  if (!name.is_none()) scene.work = take(scenario::read_case(name.cast<std::string>()));
+  if (py::isinstance<BoneBox>(source)) {
+    if (voxel_mm != 0 || !materials.empty() || number != 0)
+      raise("voxel_mm, materials and bone_number are for a bone that is opened here");
+    scene.bone = source.cast<BonePtr>();
+  } else {
+    recipe.source = source.cast<std::string>();
+    if (names_a_case(recipe.source)) {
+      if (scene.work) raise("give either a case as the source, or a bone and a case");
+      scene.work = take(scenario::read_case(recipe.source));
+      check(workshop::take_bone(*scene.work, number));
+      recipe = workshop::recipe_of(*scene.work, recipe);
+    } else if (number != 0) {
+      raise("bone_number: only a case has other bones; name a case as the source");
+    }
+    Work work(call);
+    auto made = take(work.run([&] { return workshop::open_bone(recipe, work); }));
+    scene.bone = box(std::move(made.bone));
+    scene.bone->recipe = recipe;
+    scene.bone->format = made.summary.format;
+    scene.bone->notices = std::move(made.summary.notices);
+  }
+  if (scene.work) {
+    check(scenario::check_tissues(*scene.work, scene.bone->bone->tissues()));
+    scene.burr_mm = 2e3 * scene.work->burr.radius;
+    scene.rpm = scene.work->full_speed * 60 / (2 * kPi);
+    scene.diamond = burr_mm.is_none() && scene.work->burr.kind == tool::BurrKind::diamond;
+    if (burr_mm.is_none()) scene.tool = scene.work->tool;
+    if (burr_mm.is_none())
+      workshop::fit_burr(scene.burr_mm, scene.bone->bone->grid().voxel, scene.bone->notices);
+  }
+  if (!burr_mm.is_none()) scene.burr_mm = burr_mm.cast<double>();
+  if (!rpm.is_none()) scene.rpm = rpm.cast<double>();
+  if (!tool.is_none()) scene.tool = tool.cast<std::string>();
+  return scene;
+}
+
+sim::SessionSettings settings_of(const Scene& scene) {
+  sim::SessionSettings settings;
+  settings.threads = std::clamp(scene.threads, 1, 64);
+  tick::ServoSettings& servo = settings.servo;
+  servo.rate_hz = scene.rate_hz;
+  const auto touch = haptics::method_named(scene.touch);
+  if (!touch)
+    raise(fmt::format("touch \"{}\" is not known; use constraint or shaft, or one of docs/touch.md",
+                      scene.touch));
+  servo.touch = *touch;
+  const auto law = edit::law_named(scene.removal);
+  if (!law)
+    raise(fmt::format("removal \"{}\" is not known; use energy, chips or thesis", scene.removal));
+  servo.removal.law = *law;
+  servo.guarded = scene.guarded;
+  servo.vibration_gain = scene.vibration;
+  servo.burr.radius = 0.5e-3 * scene.burr_mm;
+  servo.burr.kind = scene.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+  servo.spindle_rad_s = scene.rpm * 2 * kPi / 60;
+  servo.motor.torque = 1e-3 * scene.torque_mnm;
+  servo.burr.teeth = scene.teeth;
+  servo.drag_gain = scene.drag;
+  servo.force.stiffness = scene.stiffness_n_per_m;
+  servo.undo_bricks = scene.undo_bricks;
+  servo.irrigated = scene.irrigated;
+  if (!scene.tool.empty()) {
+    const scenario::Rack rack = scene.tools.empty()
+                                    ? scenario::built_in_rack()
+                                    : take(scenario::read_rack(scene.tools, workshop::mesh_shape));
+    const scenario::RackTool tool = take(rack.get(scene.tool));
+    servo.tools = {{tool.name, tool.tool, tool.cutter}};
+    servo.tool = 0;
+  }
+  return settings;
+}
+
+surgeon::WorkPlace place_of(const Scene& scene) {
+  std::optional<math::Vec3> at, into;
+  if (scene.work) {
+    // in mm and back, as the command line has it
+    if (scene.work->at)
+      at = math::Vec3(1e3 * scene.work->at->x(), 1e3 * scene.work->at->y(),
+                      1e3 * scene.work->at->z()) *
+           1e-3;
+    into = scene.work->into;
+  }
+  return take(surgeon::find_work_place(*scene.bone->bone, 0.5e-3 * scene.burr_mm, at, into));
+}
+
+// ---- sessions
+
+class Session;
+
+struct Snapshot {
+  edit::BoneState state;
+  std::shared_ptr<const int> of;  // the session's own mark
+};
+
+class Session {
+ public:
+  Session(const Scene& scene, const Hand& hand, const std::string& record, bool embed, bool force,
+          bool rows, bool voxels, const py::object& call);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // While it lives, no other thread of Python uses this session.
+  class Use {
+   public:
+    explicit Use(Session& session, bool to_tick = false);
+    ~Use() { session_.busy_.store(false); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    sim::Session* operator->() const { return session_.session_.get(); }
+    sim::Session& operator*() const { return *session_.session_; }
+
+   private:
+    Session& session_;
+  };
+
+  std::uint64_t step(std::uint64_t ticks);
+  void close();
+  [[nodiscard]] bool closed() const { return closed_; }
+  void push(const py::object& p, const py::object& q, const py::object& pedal,
+            const py::object& buttons, std::uint64_t ticks);
+  py::object row();
+  py::array rows();
+  py::array voxels(bool out);
+  BonePtr bone();
+  Snapshot snapshot();
+  void reset_to(const Snapshot* snapshot);
+  py::dict outcome();
+  void command(tick::CommandKind kind, double value = 0);
+  std::uint64_t ticks();
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] double rate() const { return session_->settings().servo.rate_hz; }
+  [[nodiscard]] bool finished() { return Use(*this)->hand().finished(); }
+
+ private:
+  void start_recording(const Scene& scene, const Hand& hand, bool embed);
+  void sort_voxels(sim::Session& session);
+
+  std::unique_ptr<sim::Session> session_;
+  std::unique_ptr<record::Recorder> recorder_;
+  device::PushedHand* pushed_ = nullptr;
+  std::string file_;
+  std::mutex trouble_mutex_;
+  std::string trouble_;  // of the recorder, by its thread
+  bool closed_ = false, keeps_voxels_ = false, keeps_rows_ = false, placed_ = false;
+  pid_t process_ = getpid();
+  std::atomic<bool> busy_ = false;
+  std::vector<sim::CrossedVoxel> out_, in_;
+  tick::TickRow newest_;
+  double pedal_ = 0;
+  std::uint32_t buttons_ = 0;
+  py::dtype row_type_ = row_type();
+  std::shared_ptr<const int> mark_ = std::make_shared<const int>(0);
+};
+
+Session::Use::Use(Session& session, bool to_tick) : session_(session) {
+  if (getpid() != session.process_)
+    raise("this session was made before a fork, in another process; make a new one here");
+  if (to_tick && session.closed_) raise("this session is closed; make a new one");
+  if (session.busy_.exchange(true)) raise("this session is in use by another thread");
+}
+
+Session::Session(const Scene& scene, const Hand& hand, const std::string& record, bool embed,
+                 bool force, bool rows, bool voxels, const py::object& call)
+    : file_(record), keeps_voxels_(voxels), keeps_rows_(rows) {
+  std::error_code nobody_asks;
+  if (!record.empty() && !force && std::filesystem::exists(record, nobody_asks))
+    raise(fmt::format("{} exists; give force=True to replace it", record));
+  const sim::SessionSettings settings = settings_of(scene);
+  std::unique_ptr<device::Device> device;
+  if (!hand.motion.empty() || !hand.path.points.empty()) {
+    device::HandPath path = hand.path;
+    if (!hand.motion.empty())
+      path = take(
+          surgeon::motion(hand.motion, place_of(scene), settings.servo.burr.radius, hand.seconds));
+    device = std::make_unique<device::SimulatedHand>(std::move(path), hand.arm);
+  } else {
+    auto pushed = std::make_unique<device::PushedHand>(hand.arm);
+    pushed_ = pushed.get();
+    device = std::move(pushed);
+  }
+  Work work(call);
+  session_ = take(work.run([&] {
+    return sim::Session::make(volume::copy_of(*scene.bone->bone), std::move(device), settings,
+                              work);
+  }));
+  if (!record.empty()) start_recording(scene, hand, embed);
+  if (rows || voxels) session_->keep_in_memory(rows, voxels);
+}
+
+void Session::start_recording(const Scene& scene, const Hand& hand, bool embed) {
+  workshop::About about;
+  about.recipe = scene.bone->recipe;
+  about.format = scene.bone->format;
+  about.motion = !hand.motion.empty() ? hand.motion : pushed_ ? "python" : "hand path";
+  about.embed = embed || scene.bone->recipe.source.empty();  // nobody else has this bone
+  about.work_case = scene.work;
+  if (scene.work) about.spared = workshop::to_spare(session_->bone().tissues(), scene.work->spare);
+  recorder_ = take(workshop::record(*session_, file_, about, [this](const Error& error) {
+    const std::lock_guard lock(trouble_mutex_);
+    trouble_ = error.text;
+  }));
+}
+
+Session::~Session() {
+  if (getpid() != process_) {  // its threads are in the other process: nobody would end them
+    static_cast<void>(session_.release());
+    static_cast<void>(recorder_.release());
+    return;
+  }
+  const py::gil_scoped_release others_may;
+  if (recorder_) {
+    session_->settle();
+    session_->set_recorder(nullptr);
+    recorder_.reset();
+  }
+  session_.reset();
+}
+
+void Session::close() {
+  if (closed_) return;
+  Use use(*this);
+  closed_ = true;
+  if (!recorder_) return;
+  const auto written = [&] {
+    const py::gil_scoped_release others_may;
+    use->settle();
+    use->set_recorder(nullptr);
+    return recorder_->finish();
+  }();
+  recorder_.reset();
+  if (!written) throw Raised(written.error());
+}
+
+std::uint64_t Session::step(std::uint64_t ticks) {
+  Use use(*this, true);
+  if (pushed_ != nullptr && !placed_)
+    raise("nobody said where the hand is; call hand() before the first step()");
+  Work work;
+  const std::uint64_t made = work.run([&] { return use->step(ticks, work); });
+  {
+    const std::lock_guard lock(trouble_mutex_);
+    if (!trouble_.empty()) raise(std::exchange(trouble_, {}));
+  }
+  return made;
+}
+
+void Session::push(const py::object& p, const py::object& q, const py::object& pedal,
+                   const py::object& buttons, std::uint64_t ticks) {
+  Use use(*this, true);
+  if (pushed_ == nullptr)
+    raise("this hand follows its motion or path; only a pushed hand can be told");
+  math::Pose there = pushed_->goal();
+  if (!p.is_none())
+    there.p = vec3_of(p, "p");
+  else if (!placed_)
+    raise("say where the hand is: p");
+  if (!q.is_none()) there.q = quat_of(q);
+  if (!pedal.is_none()) pedal_ = pedal.cast<double>();
+  if (!(pedal_ >= 0 && pedal_ <= 1))
+    raise(fmt::format("a pedal of {} is not possible; use 0 to 1", pedal_));
+  if (!buttons.is_none()) buttons_ = buttons.cast<std::uint32_t>();
+  if (ticks == 0)
+    pushed_->place(there, pedal_, buttons_);
+  else
+    pushed_->move(there, pedal_, buttons_, ticks);
+  placed_ = true;
+}
+
+py::object Session::row() {
+  Use use(*this);
+  tick::TickRow now;
+  if (use->view(now)) newest_ = now;
+  if (use->ticks() == 0) return py::none();
+  return rows_array(rows_of({newest_}), row_type_)[py::int_(0)];
+}
+
+py::array Session::rows() {
+  Use use(*this);
+  if (!keeps_rows_) raise("this session keeps no rows; make it with rows=True");
+  std::vector<Row> out;
+  {
+    const py::gil_scoped_release others_may;
+    out = rows_of(use->log()->take_rows());
+  }
+  return rows_array(std::move(out), row_type_);
+}
+
+void Session::sort_voxels(sim::Session& session) {
+  for (const sim::CrossedVoxel& voxel : session.log()->take_voxels())
+    (voxel.out ? out_ : in_).push_back(voxel);
+}
+
+py::array Session::voxels(bool out) {
+  Use use(*this);
+  if (!keeps_voxels_) raise("this session keeps no voxels; make it with voxels=True");
+  sort_voxels(*use);
+  std::vector<std::int32_t> flat;
+  const std::vector<sim::CrossedVoxel> taken = std::exchange(out ? out_ : in_, {});
+  flat.reserve(4 * taken.size());
+  for (const sim::CrossedVoxel& voxel : taken)
+    flat.insert(flat.end(), {static_cast<std::int32_t>(voxel.tick), voxel.i, voxel.j, voxel.k});
+  return as_array(std::move(flat), {static_cast<py::ssize_t>(taken.size()), 4});
+}
+
+BonePtr Session::bone() {
+  Use use(*this);
+  std::unique_ptr<volume::Bone> copy;
+  {
+    const py::gil_scoped_release others_may;
+    copy = volume::copy_of(use->bone());
+  }
+  return box(std::move(copy));
+}
+
+Snapshot Session::snapshot() {
+  Use use(*this);
+  return {use->bone_state(), mark_};
+}
+
+void Session::reset_to(const Snapshot* snapshot) {
+  Use use(*this, true);
+  if (snapshot != nullptr && snapshot->of != mark_) raise("this snapshot is of another session");
+  Status done = fine();
+  {
+    const py::gil_scoped_release others_may;
+    done = use->reset_to(snapshot != nullptr ? snapshot->state : edit::BoneState());
+  }
+  check(done);
+  out_.clear();
+  in_.clear();
+  newest_ = {};
+  placed_ = false;
+  pedal_ = 0;
+  buttons_ = 0;
+}
+
+std::uint64_t Session::ticks() { return Use(*this)->ticks(); }
+
+py::dict Session::outcome() {
+  Use use(*this);
+  const sim::Outcome outcome = use->outcome();
+  const edit::Ledger& ledger = outcome.ledger;
+  return py::dict("ticks"_a = outcome.ticks, "seconds"_a = outcome.seconds,
+                  "removed_mm3"_a = 1e9 * ledger.removed, "asked_mm3"_a = 1e9 * ledger.asked,
+                  "not_cut_mm3"_a = 1e9 * ledger.not_cut, "owed_mm3"_a = 1e9 * ledger.debt,
+                  "added_mm3"_a = 1e9 * ledger.added, "undone_mm3"_a = 1e9 * ledger.undone,
+                  "cutting_energy_j"_a = ledger.energy, "peak_force_n"_a = outcome.peak_force,
+                  "mean_force_n"_a = outcome.mean_force,
+                  "noted"_a = tick::words(tick::worth_telling(outcome.flags)));
+}
+
+void Session::command(tick::CommandKind kind, double value) {
+  if (!std::isfinite(value)) raise("a setting must be a finite number");
+  Use(*this, true)->command({kind, value});
+}
+
+double mode_named(const std::string& name) {
+  constexpr const char* kNames[] = {"cut", "add", "touch", "restore", "smooth"};
+  for (int n = 0; n < 5; ++n)
+    if (name == kNames[n]) return n;
+  raise(fmt::format("mode \"{}\" is not known; use cut, add, touch, restore or smooth", name));
+}
+
+void add_hand(py::module_& module) {
+  py::class_<Hand>(module, "Hand", "Who holds the tool.")
+      .def_static(
+          "pushed",
+          [](double mass_kg, double damping_n_s_per_m, double stiffness_n_per_m) {
+            return Hand{{}, {}, 0, {mass_kg, damping_n_s_per_m, stiffness_n_per_m}};
+          },
+          py::kw_only(), "mass_kg"_a = 0.1, "damping_n_s_per_m"_a = 10.0,
+          "stiffness_n_per_m"_a = INFINITY,
+          "Told by Session.hand(). Stiffness inf: it is where it is told to be; else the bone "
+          "pushes it away.")
+      .def_static(
+          "motion",
+          [](const std::string& name, double seconds, const std::string& grip) {
+            const auto known = surgeon::motion_names();
+            if (std::find(known.begin(), known.end(), name) == known.end())
+              raise(fmt::format("motion \"{}\" is not known; burr.motions() lists them", name));
+            return Hand{name, {}, seconds, arm_named(grip)};
+          },
+          "name"_a, py::kw_only(), "seconds"_a = 10.0, "grip"_a = "firm",
+          "Makes a motion at the place where the work of the scene begins.")
+      .def_static("path", &path_hand, "t"_a, "p"_a, "q"_a = py::none(), "pedal"_a = py::none(),
+                  py::kw_only(), "grip"_a = "firm", "t (n) [s], p (n, 3) [m], q (n, 4) w x y z.");
+}
+
+void add_session(py::module_& module) {
+  py::class_<Snapshot>(module, "Snapshot", "A bone as it was in a session, for reset_to().");
+  py::class_<Session> session(module, "Session", "A scene with a hand, moved by step().");
+  session.def(
+      "step", &Session::step, "ticks"_a = 1,
+      "Makes so many ticks without the GIL; returns how many: fewer when the hand has finished.");
+  session.def("hand", &Session::push, "p"_a = py::none(), "q"_a = py::none(),
+              "pedal"_a = py::none(), "buttons"_a = py::none(), py::kw_only(), "ticks"_a = 1,
+              "Where the hand is after so many ticks (0: at once, at rest). p [m], q w x y z.");
+  session.def_property_readonly("row", &Session::row);
+  session.def("rows", &Session::rows, "The rows of all ticks since the last call.");
+  session.def(
+      "removed", [](Session& self) { return self.voxels(true); },
+      "int32 (n, 4): tick, i, j, k of the voxels that left the bone since the last call.");
+  session.def(
+      "added", [](Session& self) { return self.voxels(false); },
+      "The same of voxels that became bone.");
+  session.def("bone", &Session::bone, "A copy of the bone as it is now.");
+  session.def("snapshot", &Session::snapshot);
+  session.def("reset_to", &Session::reset_to, "snapshot"_a = py::none(),
+              "Puts the bone back (None: to the beginning) and starts over at tick 0.");
+  session.def("outcome", &Session::outcome);
+  session.def_property_readonly("ticks", &Session::ticks);
+  session.def_property_readonly(
+      "seconds", [](Session& self) { return static_cast<double>(self.ticks()) / self.rate(); });
+  session.def_property_readonly("rate_hz", &Session::rate);
+  session.def_property_readonly("finished", &Session::finished);
+  session.def_property_readonly("closed", &Session::closed);
+  session.def_property_readonly("recording", [](const Session& self) -> py::object {
+    return self.file().empty() ? py::object(py::none()) : py::object(py::str(self.file()));
+  });
+  session.def("undo", [](Session& self) { self.command(tick::CommandKind::undo); });
+  session.def("redo", [](Session& self) { self.command(tick::CommandKind::redo); });
+  session.def("reset", [](Session& self) { self.command(tick::CommandKind::reset); });
+  session.def(
+      "set_burr_mm",
+      [](Session& self, double mm) { self.command(tick::CommandKind::burr_radius, 0.5e-3 * mm); },
+      "diameter"_a);
+  session.def(
+      "set_rpm",
+      [](Session& self, double rpm) {
+        self.command(tick::CommandKind::spindle_speed, rpm * 2 * kPi / 60);
+      },
+      "rpm"_a);
+  session.def(
+      "set_stiffness_n_per_m",
+      [](Session& self, double stiffness) {
+        self.command(tick::CommandKind::stiffness, stiffness);
+      },
+      "stiffness"_a);
+  session.def(
+      "set_mode",
+      [](Session& self, const std::string& mode) {
+        self.command(tick::CommandKind::tool_mode, mode_named(mode));
+      },
+      "mode"_a);
+  session.def(
+      "set_diamond",
+      [](Session& self, bool diamond) {
+        self.command(tick::CommandKind::burr_kind, diamond ? 1 : 0);
+      },
+      "diamond"_a);
+  session.def("close", &Session::close, "Finishes the recording; nothing can be stepped after it.");
+  session.def("__enter__", [](const py::object& self) { return self; });
+  session.def("__exit__", [](Session& self, const py::args&) { self.close(); });
+}
+
+}  // namespace
+
+void add_scene(py::module_& module) {
+  add_hand(module);
+  add_session(module);
+  py::class_<Scene> scene(module, "Scene", "A bone, a case, a tool and their settings.");
+  scene.def(py::init(&make_scene), "source"_a, py::kw_only(), "case"_a = py::none(),
+            "bone_number"_a = 0, "burr_mm"_a = py::none(), "rpm"_a = py::none(),
+            "tool"_a = py::none(), "tools"_a = "", "voxel_mm"_a = 0.0, "materials"_a = "",
+            "progress"_a = py::none());
+  scene.def_readonly("bone", &Scene::bone);
+  scene.def_property_readonly("case", [](const Scene& self) -> py::object {
+    return self.work ? py::object(py::str(self.work->name)) : py::object(py::none());
+  });
+  scene.def_property_readonly("title",
+                              [](const Scene& self) { return self.work ? self.work->title : ""; });
+  scene.def_property_readonly("spare", [](const Scene& self) {
+    std::vector<std::string> names;
+    for (const volume::TissueId id : workshop::to_spare(
+             self.bone->bone->tissues(), self.work ? self.work->spare : std::vector<std::string>()))
+      names.push_back(self.bone->bone->tissues()[id].name);
+    return names;
+  });
+  scene.def_property_readonly("targets", [](const Scene& self) {
+    py::list out;
+    if (!self.work) return out;
+    for (const scenario::Target& target : self.work->targets)
+      out.append(py::dict("tissue"_a = target.tissue, "goal"_a = scenario::word_of(target.goal),
+                          "share"_a = target.share));
+    return out;
+  });
+  scene.def_property_readonly("at_m",
+                              [](const Scene& self) { return array_of(place_of(self).at); });
+  scene.def_property_readonly("into",
+                              [](const Scene& self) { return array_of(place_of(self).into); });
+  scene.def_readwrite("burr_mm", &Scene::burr_mm);
+  scene.def_readwrite("rpm", &Scene::rpm);
+  scene.def_readwrite("diamond", &Scene::diamond);
+  scene.def_readwrite("teeth", &Scene::teeth);
+  scene.def_readwrite("tool", &Scene::tool);
+  scene.def_readwrite("tools", &Scene::tools);
+  scene.def_readwrite("rate_hz", &Scene::rate_hz);
+  scene.def_readwrite("stiffness_n_per_m", &Scene::stiffness_n_per_m);
+  scene.def_readwrite("touch", &Scene::touch);
+  scene.def_readwrite("removal", &Scene::removal);
+  scene.def_readwrite("drag", &Scene::drag);
+  scene.def_readwrite("vibration", &Scene::vibration);
+  scene.def_readwrite("torque_mnm", &Scene::torque_mnm);
+  scene.def_readwrite("guarded", &Scene::guarded);
+  scene.def_readwrite("irrigated", &Scene::irrigated);
+  scene.def_readwrite("undo_bricks", &Scene::undo_bricks);
+  scene.def_readwrite("threads", &Scene::threads);
+  scene.def(
+      "session",
+      [](const Scene& self, const Hand* hand, const std::string& record, bool embed, bool force,
+         bool rows, bool voxels, const py::object& call) {
+        Hand pushed;
+        pushed.arm.stiffness = INFINITY;
+        return std::make_unique<Session>(self, hand != nullptr ? *hand : pushed, record, embed,
+                                         force, rows, voxels, call);
+      },
+      "hand"_a = py::none(), py::kw_only(), "record"_a = "", "embed"_a = false, "force"_a = false,
+      "rows"_a = true, "voxels"_a = true, "progress"_a = py::none(),
+      "A session on a copy of the bone. record: F.mcap; embed: the bone goes into it.");
+}
+
+}  // namespace burr::python
