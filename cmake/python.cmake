@@ -25,14 +25,14 @@ endforeach()
 add_custom_target(burr_python_files ALL DEPENDS ${copies})
 add_dependencies(burr_python burr_python_files)
 
-# Where Python looks for it depends on the prefix; a package for Debian sets lib/python3/dist-packages.
-set(BURR_PYTHON_DIR lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/site-packages CACHE STRING "folder of the module, from the prefix")
+# where Debian's Python looks below /usr; the name of the module's file tells versions of Python apart
+set(BURR_PYTHON_DIR lib/python3/dist-packages CACHE STRING "folder of the module, from the prefix")
 file(RELATIVE_PATH to_libraries /${BURR_PYTHON_DIR}/burr /${CMAKE_INSTALL_LIBDIR})
 set_target_properties(burr_python PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
-install(TARGETS burr_python LIBRARY DESTINATION ${BURR_PYTHON_DIR}/burr)
+install(TARGETS burr_python LIBRARY DESTINATION ${BURR_PYTHON_DIR}/burr COMPONENT python)
 list(TRANSFORM BURR_PYTHON_FILES PREPEND ${PROJECT_SOURCE_DIR}/python/burr/)
-install(FILES ${BURR_PYTHON_FILES} DESTINATION ${BURR_PYTHON_DIR}/burr)
-install(CODE "message(STATUS \"Python finds burr with PYTHONPATH=\${CMAKE_INSTALL_PREFIX}/${BURR_PYTHON_DIR}\")")
+install(FILES ${BURR_PYTHON_FILES} DESTINATION ${BURR_PYTHON_DIR}/burr COMPONENT python)
+install(CODE "message(STATUS \"Python finds burr with PYTHONPATH=\${CMAKE_INSTALL_PREFIX}/${BURR_PYTHON_DIR}\")" COMPONENT python)
 
 # tests/python/x_test.py -> one test each; they also run the program
 if(BURR_TESTS AND TARGET burr_program)

@@ -22,6 +22,9 @@ grep -q "libburr0 (= $version)" <(dpkg-deb -f "$place"/out/burr_*.deb Depends) |
 grep -q "libsdl2-2.0-0" <(dpkg-deb -f "$place"/out/burr_*.deb Depends) || wrong "burr does not need SDL"
 for deb in "$place"/out/*.deb; do dpkg-deb -x "$deb" "$place/root"; done
 root=$place/root
+if [ -d "$build/python/burr" ]; then
+  [ -f "$place/out/python3-burr_${version}_$(dpkg --print-architecture).deb" ] || wrong "there is no package python3-burr"
+fi
 libraries=$(dirname "$(find "$root" -name libburr.so.0)")
 
 # no path of this computer, neither where libraries are looked for nor in a text
@@ -35,6 +38,14 @@ run --version
 run --quiet phantom ball --voxel-mm 1 --out "$place/ball.nrrd"
 run --quiet info "$place/ball.nrrd" >/dev/null
 run --quiet mill tooth --motion plunge --json >/dev/null # its bone comes from the package
+
+if [ -d "$root/usr/lib/python3" ]; then
+  LD_LIBRARY_PATH=$libraries PYTHONPATH=$root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c '
+import burr
+assert burr.__file__.startswith("'"$root"'"), burr.__file__
+with burr.Scene("tooth").session(burr.Hand.motion("plunge", seconds=1)) as session:
+    assert session.step(1000) == 1000'
+fi
 
 # a manual page for each command, without warnings
 pages() { # words of a command
