@@ -172,5 +172,8 @@ int main(int argc, char** argv) {
         error(Trouble::internal, fmt::format("unexpected: {}; please report it", problem.what()));
   }
   if (!status.ok()) std::fprintf(stderr, "burr: %s\n", status.error().text.c_str());
-  return app::end(status.ok() ? 0 : static_cast<int>(status.error().trouble));
+  if (status.ok()) return app::end(0);
+  const Trouble trouble = status.error().trouble;
+  return app::end(trouble == Trouble::interrupted ? app::stopped_code()
+                                                  : static_cast<int>(trouble));
 }

@@ -5,11 +5,14 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <string_view>
 
+#include "batch/row_command.h"
 #include "burr/base/printable.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/importing/materials.h"
@@ -325,41 +328,41 @@ void rest_at_end(device::HandPath& path) {
 }
 
 struct Told {
-  const std::vector<std::string>& doubts;
+  std::vector<std::string> doubts;
   std::vector<MovedPiece> pieces;  // that were moved
   std::optional<CutLeft> left;     // of a cut along a plane
+  thermal::HeatSummary heat = {};
 };
 
-void print(const Options& options, sim::Session& session, const Recording& recording,
-           const Told& told) {
-  std::vector<std::string> doubts = told.doubts;
-  if (told.left && !told.left->sentence.empty()) doubts.push_back(told.left->sentence);
+void print(const Options& options, sim::Session& session, const Told& told) {
   const sim::Outcome outcome = session.outcome();
   const rt::TickSummary& t = outcome.timing;
-  thermal::HeatSummary heat;
-  if (options.heat) static_cast<void>(session.heat(heat));
-  if (!options.json) {
-    fmt::print(
-        "{:.2f} s, {} ticks: removed {:.3f} mm3 of {:.3f} mm3 asked; force {:.2f} N mean in "
-        "contact, {:.2f} N peak\n",
-        outcome.seconds, outcome.ticks, 1e9 * outcome.ledger.removed, 1e9 * outcome.ledger.asked,
-        outcome.mean_force, outcome.peak_force);
-    fmt::print("tick {:.1f} us median, {:.1f} p99, {:.1f} p99.9, {:.1f} worst (thread CPU){}\n",
-               t.p50_us, t.p99_us, t.p999_us, t.max_us,
-               options.realtime
-                   ? fmt::format("; {} late, {} missed; {}", t.late, t.missed, outcome.scheduling)
-                   : "");
-    if (outcome.most_shed != tick::Shed::none)
-      fmt::print("put off at times because this machine is too slow: {}\n",
-                 tick::name(outcome.most_shed));
-    if (options.heat) print_heat(session, heat, outcome.heat_rows_lost);
-    for (const std::string& line : pieces_text(told.pieces)) fmt::print("{}\n", line);
-    for (const std::string& doubt : doubts) fmt::print("noted: {}\n", doubt);
-    for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
-      fmt::print("noted: {}\n", sentence);
-    return;
-  }
-  nlohmann::json out;
+  fmt::print(
+      "{:.2f} s, {} ticks: removed {:.3f} mm3 of {:.3f} mm3 asked; force {:.2f} N mean in "
+      "contact, {:.2f} N peak\n",
+      outcome.seconds, outcome.ticks, 1e9 * outcome.ledger.removed, 1e9 * outcome.ledger.asked,
+      outcome.mean_force, outcome.peak_force);
+  fmt::print("tick {:.1f} us median, {:.1f} p99, {:.1f} p99.9, {:.1f} worst (thread CPU){}\n",
+             t.p50_us, t.p99_us, t.p999_us, t.max_us,
+             options.realtime
+                 ? fmt::format("; {} late, {} missed; {}", t.late, t.missed, outcome.scheduling)
+                 : "");
+  if (outcome.most_shed != tick::Shed::none)
+    fmt::print("put off at times because this machine is too slow: {}\n",
+               tick::name(outcome.most_shed));
+  if (options.heat) print_heat(session, told.heat, outcome.heat_rows_lost);
+  for (const std::string& line : pieces_text(told.pieces)) fmt::print("{}\n", line);
+  for (const std::string& doubt : told.doubts) fmt::print("noted: {}\n", doubt);
+  for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
+    fmt::print("noted: {}\n", sentence);
+}
+
+Account account_of(const Options& options, sim::Session& session, const Recording& recording,
+                   const Told& told) {
+  const sim::Outcome outcome = session.outcome();
+  const rt::TickSummary& t = outcome.timing;
+  Account account;
+  nlohmann::json &out = account.result, &times = account.times;
   out["finished"] = !interrupted();
   out["ticks"] = outcome.ticks;
   out["seconds"] = outcome.seconds;
@@ -377,26 +380,37 @@ void print(const Options& options, sim::Session& session, const Recording& recor
   }
   out["peak_force_N"] = outcome.peak_force;
   out["mean_force_N"] = outcome.mean_force;
-  out["tick_us"] = {{"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}};
+  times["tick_us"] = {{"p50", t.p50_us}, {"p99", t.p99_us}, {"p999", t.p999_us}, {"max", t.max_us}};
   out["rate_hz"] = options.rate_hz;
   out["realtime"] = options.realtime;
-  out["late_us"] = {{"p50", t.late_p50_us},
-                    {"p99", t.late_p99_us},
-                    {"p999", t.late_p999_us},
-                    {"max", t.worst_lateness_us}};
-  out["late"] = t.late;
-  out["missed"] = t.missed;
-  out["worst_lateness_us"] = t.worst_lateness_us;
+  times["late_us"] = {{"p50", t.late_p50_us},
+                      {"p99", t.late_p99_us},
+                      {"p999", t.late_p999_us},
+                      {"max", t.worst_lateness_us}};
+  times["late"] = t.late;
+  times["missed"] = t.missed;
+  times["worst_lateness_us"] = t.worst_lateness_us;
   out["bone_hash"] = record::hex(session.bone().content_hash());
-  std::vector<std::string> noted = doubts;
+  std::vector<std::string> noted = told.doubts;
   for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
     noted.push_back(sentence);
   out["noted"] = noted;
-  out["load_ticks"] = outcome.shed_ticks;
-  if (options.heat) out["heat"] = heat_json(session, heat, outcome.heat_rows_lost);
-  if (options.realtime) out["scheduling"] = outcome.scheduling;
-  if (!options.record.empty()) out["recording"] = recording.account();
-  fmt::print("{}\n", json_line(out));
+  times["load_ticks"] = outcome.shed_ticks;
+  if (options.heat) out["heat"] = heat_json(session, told.heat, outcome.heat_rows_lost);
+  if (options.realtime) times["scheduling"] = outcome.scheduling;
+  if (!options.record.empty()) times["recording"] = recording.account();
+  return account;
+}
+
+// given: takes the account; nullptr: it is printed.
+void tell(const Options& options, sim::Session& session, const Told& told, Account account,
+          Account* given) {
+  if (given != nullptr)
+    *given = std::move(account);
+  else if (options.json)
+    fmt::print("{}\n", json_line(account.whole()));
+  else
+    print(options, session, told);
 }
 
 // The volume, or the bone of the case; with its notices on stderr.
@@ -446,7 +460,8 @@ device::ArmSettings arm_of(std::string_view grip) {
   return arm;
 }
 
-Status run(Options options) {
+// given: takes the account; nullptr: it is printed.
+Status run(Options options, Account* given) {
   if (options.path_csv.empty() == options.motion_name.empty())
     return error(Trouble::usage,
                  fmt::format("give either --path FILE.csv or --motion NAME (one of {}; with a case "
@@ -534,7 +549,11 @@ Status run(Options options) {
     Status drawn = draw(options, place, session);
     if (!drawn) return drawn;
   }
-  print(options, session, recording, {doubts, pieces_of(options, store, session.bone()), left});
+  if (left && !left->sentence.empty()) doubts.push_back(left->sentence);
+  Told told{std::move(doubts), pieces_of(options, store, session.bone()), left};
+  if (options.heat) static_cast<void>(session.heat(told.heat));
+  Account account = account_of(options, session, recording, told);
+  tell(options, session, told, std::move(account), given);
   if (!put) return put;
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
@@ -590,7 +609,8 @@ void add_motion(CLI::App* command, const std::shared_ptr<Options>& options) {
       ->expected(3);
 }
 
-void add(CLI::App& app, Todo& todo) {
+// chosen: gets the options when they were parsed.
+void add_mill(CLI::App& app, const std::function<void(std::shared_ptr<const Options>)>& chosen) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("mill", "mill a bone with a simulated hand");
   command
@@ -676,17 +696,35 @@ void add(CLI::App& app, Todo& todo) {
   add_results(command, options);
   add_picture_size(*command, options->size);
   add_volume_options(*command, options->volume);
-  command->callback([options, touch, burr, rpm, seconds, &todo] {
+  command->callback([options, touch, burr, rpm, seconds, chosen] {
     options->burr_given = !burr->empty();
     options->rpm_given = !rpm->empty();
     options->seconds_given = !seconds->empty();
     // two tools feel each other where all their parts do
     if (!options->tool.second.empty() && touch->empty()) options->touch = "shaft";
-    todo.work = [options] { return run(*options); };
+    chosen(options);
+  });
+}
+
+void add(CLI::App& app, Todo& todo) {
+  add_mill(app,
+           [&todo](auto options) { todo.work = [options] { return run(*options, nullptr); }; });
+}
+
+void add_row(CLI::App& app, RowTodo& todo) {
+  add_mill(app, [&todo](auto options) {
+    todo.work = [options](Account& account) { return run(*options, &account); };
+    todo.memory_mb = [options]() -> Result<double> {
+      Options own = *options;
+      const auto opened = open_volume(own);
+      if (!opened) return opened.error();
+      return memory_mb(opened->bone->grid().size.cast<double>().prod());
+    };
   });
 }
 
 const Command command{30, add};
+const RowCommand row_command{"mill", add_row};
 
 }  // namespace
 }  // namespace burr::app

@@ -50,7 +50,7 @@ bool is_stl(std::string_view head, std::uintmax_t size) {
 }
 
 // What the first bytes must be; none: text is expected.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kBeginnings = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kBeginnings = {
     {{".png", "\x89PNG"},
      {".ply", "ply"},
      {".3mf", "PK"},
@@ -58,6 +58,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kBeginnin
      {".nrrd", "NRRD"},
      {".mcap", "\x89MCAP0"},
      {".wav", "RIFF"},
+     {".sqlite", "SQLite format 3"},
      {".bone", ""},
      {".html", "<"}}};
 

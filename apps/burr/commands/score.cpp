@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "batch/row_command.h"
 #include "burr/base/printable.h"
 #include "burr/record/player.h"
 #include "burr/record/session_info.h"
@@ -67,7 +70,18 @@ std::optional<bool> rubric_changed(const record::Player& player, const scoring::
   return who->rubric_hash != rubric.text_hash;
 }
 
-Status run_score(const Options& options) {
+nlohmann::ordered_json account_of(const Scored& made, const std::optional<bool>& changed) {
+  const scoring::Rubric& rubric = made.judged.rubric;
+  nlohmann::ordered_json out = score_json(rubric, made.score);
+  out["rubric_hash"] = record::hex(rubric.text_hash);
+  out["rubric_changed"] =
+      changed ? nlohmann::ordered_json(*changed) : nlohmann::ordered_json(nullptr);
+  out["pieces"] = pieces_json(made.pieces);
+  return out;
+}
+
+// given: takes the account; nullptr: it is printed.
+Status run_score(const Options& options, Account* given) {
   auto judged = judged_by(options.source, options.rubric);
   if (!judged) return judged.error();
   const scoring::Item* wanted = judged->rubric.item(options.explain);
@@ -80,6 +94,11 @@ Status run_score(const Options& options) {
   const record::Player& player = *made->judged.player;
   const scoring::Rubric& rubric = made->judged.rubric;
   const scoring::Score& score = made->score;
+  const auto changed = rubric_changed(player, rubric);
+  if (given != nullptr) {
+    given->result = nlohmann::json::parse(json_line(account_of(*made, changed)));
+    return fine();
+  }
   wanted = rubric.item(options.explain);  // of the rubric as it was moved
   for (const std::string& notice : player.notices()) fmt::print(stderr, "{}\n", notice);
   if (wanted != nullptr) {
@@ -99,20 +118,12 @@ Status run_score(const Options& options) {
       fmt::print("moved, which earns nothing; the items look at the bone as if it had not been:\n");
     for (const std::string& line : pieces_text(made->pieces)) fmt::print("  {}\n", line);
   }
-  const auto changed = rubric_changed(player, rubric);
   if (changed.value_or(false))
     fmt::print(
         "note: when this session was recorded, the rubric of its case was another one; the marks "
         "are those of the rubric as it is now\n");
   fmt::print("{}\n", kDefaults);
-  if (options.json) {
-    nlohmann::ordered_json out = score_json(rubric, score);
-    out["rubric_hash"] = record::hex(rubric.text_hash);
-    out["rubric_changed"] =
-        changed ? nlohmann::ordered_json(*changed) : nlohmann::ordered_json(nullptr);
-    out["pieces"] = pieces_json(made->pieces);
-    fmt::print("{}\n", json_line(out));
-  }
+  if (options.json) fmt::print("{}\n", json_line(account_of(*made, changed)));
   return fine();
 }
 
@@ -194,7 +205,9 @@ Status run_check(const Options& options) {
   return check_reference(options, *rubric, *work, *lesson, *made->bone);
 }
 
-void add_score(CLI::App& app, Todo& todo) {
+// chosen: gets the options when they were parsed.
+void add_score_to(CLI::App& app,
+                  const std::function<void(std::shared_ptr<const Options>)>& chosen) {
   auto* command = app.add_subcommand("score", "say what a recorded session met of a rubric");
   auto options = std::make_shared<Options>();
   command->add_option("recording", options->source, "a recording (.mcap)")->required();
@@ -205,7 +218,19 @@ void add_score(CLI::App& app, Todo& todo) {
                       "the volume it was made from (default: burr searches for it)");
   add_volume_options(*command, options->volume);
   command->add_flag("--json", options->json, "one JSON object as the last line, in SI");
-  command->callback([options, &todo] { todo.work = [options] { return run_score(*options); }; });
+  command->callback([options, chosen] { chosen(options); });
+}
+
+void add_score(CLI::App& app, Todo& todo) {
+  add_score_to(app, [&todo](auto options) {
+    todo.work = [options] { return run_score(*options, nullptr); };
+  });
+}
+
+void add_row(CLI::App& app, RowTodo& todo) {
+  add_score_to(app, [&todo](auto options) {
+    todo.work = [options](Account& account) { return run_score(*options, &account); };
+  });
 }
 
 void add_rubric(CLI::App& app, Todo& todo) {
@@ -225,6 +250,7 @@ void add_rubric(CLI::App& app, Todo& todo) {
 
 const Command score_command{66, add_score};
 const Command rubric_command{67, add_rubric};
+const RowCommand row_command{"score", add_row};
 
 }  // namespace
 }  // namespace burr::app

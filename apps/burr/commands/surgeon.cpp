@@ -5,12 +5,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "batch/row_command.h"
 #include "burr/base/printable.h"
 #include "burr/record/course.h"
 #include "burr/record/view.h"
@@ -20,6 +22,7 @@
 #include "burr/tick/flag_words.h"
 #include "burr/tool/state.h"
 #include "burr/workshop/label_check.h"
+#include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
@@ -148,10 +151,10 @@ class Assistant {
 };
 
 void print(const Options& options, sim::Session& session, const Assistant& assistant,
-           const Recording& recording) {
+           const Account& account) {
   const sim::Outcome outcome = session.outcome();
-  const char* ending = assistant.done() ? "declared done" : "time up";
   if (!options.json) {
+    const std::string ending = account.result["ending"];
     fmt::print("{}, seed {}: {:.1f} s, {:.1f} mm3 removed, {:.2f} N mean in contact; {}\n",
                options.level, options.seed, outcome.seconds, 1e9 * outcome.ledger.removed,
                outcome.mean_force, ending);
@@ -166,21 +169,30 @@ void print(const Options& options, sim::Session& session, const Assistant& assis
       fmt::print("noted: {}\n", sentence);
     return;
   }
-  nlohmann::json out;
+  fmt::print("{}\n", json_line(account.whole()));
+}
+
+Account account_of(const Options& options, sim::Session& session, const Assistant& assistant,
+                   const Recording& recording) {
+  const sim::Outcome outcome = session.outcome();
+  Account account;
+  nlohmann::json& out = account.result;
+  out["finished"] = assistant.done() || !interrupted();
   out["level"] = options.level;
   out["seed"] = options.seed;
   out["seconds"] = outcome.seconds;
   out["removed_mm3"] = 1e9 * outcome.ledger.removed;
   out["mean_force_N"] = outcome.mean_force;
-  out["ending"] = ending;
+  out["ending"] = assistant.done() ? "declared done" : interrupted() ? "stopped" : "time up";
   out["steps"] = assistant.steps();
   out["noted"] = tick::words(tick::worth_telling(outcome.flags));
   out["bone_hash"] = record::hex(session.bone().content_hash());
-  if (!options.record.empty()) out["recording"] = recording.account();
-  fmt::print("{}\n", json_line(out));
+  if (!options.record.empty()) account.times["recording"] = recording.account();
+  return account;
 }
 
-Status run(const Options& options) {
+// given: takes the account; nullptr: it is printed.
+Status run(const Options& options, Account* given) {
   const Status possible = check_outputs({options.volume.materials},
                                         {{"--record", options.record, {".mcap"}}}, options.force);
   if (!possible) return possible;
@@ -216,13 +228,25 @@ Status run(const Options& options) {
   session.set_between_ticks([&assistant] { assistant.work(); }, surgeon::kConsultTicks);
   session.run(options.seconds, progress());
   const Status recorded = options.record.empty() ? fine() : recording.finish(session);
-  print(options, session, assistant, recording);
+  Account account = account_of(options, session, assistant, recording);
+  if (given == nullptr) print(options, session, assistant, account);
+  if (given != nullptr) *given = std::move(account);
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
   return fine();
 }
 
-void add(CLI::App& app, Todo& todo) {
+Result<double> memory_needed(const Options& options) {
+  auto work = scenario::read_case(options.work_case);
+  if (!work) return work.error();
+  if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken.error();
+  const auto opened = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
+  if (!opened) return opened.error();
+  return memory_mb(opened->bone->grid().size.cast<double>().prod());
+}
+
+// chosen: gets the options when they were parsed.
+void add_surgeon(CLI::App& app, const std::function<void(std::shared_ptr<const Options>)>& chosen) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("surgeon", "a scripted surgeon does a case, to test scores");
   command->add_option("case", options->work_case, "a built-in case, or a .toml file")->required();
@@ -251,10 +275,23 @@ void add(CLI::App& app, Todo& todo) {
   add_force(*command, options->force);
   command->add_flag("--json", options->json, "one JSON object on the last line");
   add_volume_options(*command, options->volume);
-  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+  command->callback([options, chosen] { chosen(options); });
+}
+
+void add(CLI::App& app, Todo& todo) {
+  add_surgeon(app,
+              [&todo](auto options) { todo.work = [options] { return run(*options, nullptr); }; });
+}
+
+void add_row(CLI::App& app, RowTodo& todo) {
+  add_surgeon(app, [&todo](auto options) {
+    todo.work = [options](Account& account) { return run(*options, &account); };
+    todo.memory_mb = [options] { return memory_needed(*options); };
+  });
 }
 
 const Command command{65, add};
+const RowCommand row_command{"surgeon", add_row};
 
 }  // namespace
 }  // namespace burr::app

@@ -8,12 +8,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
+#include "batch/row_command.h"
 #include "burr/people/observer.h"
 #include "burr/sim/feeling.h"
 #include "burr/workshop/hand_device.h"
@@ -203,7 +205,8 @@ Result<Unfinished> begin(const Options& options) {
   return Unfinished{*run, {}, {}, {}};
 }
 
-Status run(const Options& options) {
+// given: takes the account; nullptr: it is printed.
+Status run(const Options& options, Account* given) {
   auto begun = begin(options);
   if (!begun) return begun.error();
   auto hand = take_hand(options, begun->run);
@@ -246,7 +249,9 @@ Status run(const Options& options) {
     progress().report(static_cast<double>(seconds.size()) / run.plan.trials, "trials");
   }
   if (Status done = save(true); !done) return done;
-  if (options.json)
+  if (given != nullptr)
+    given->result = nlohmann::json::parse(result_json(run, experiment));
+  else if (options.json)
     fmt::print("{}\n", json_line(nlohmann::json::parse(result_json(run, experiment))));
   else
     fmt::print("{}\n", result_words(run, experiment));
@@ -260,7 +265,9 @@ Status run(const Options& options) {
                         seconds.size(), folder));
 }
 
-void add(CLI::App& app, Todo& todo) {
+// chosen: gets the options when they were parsed.
+void add_psychophysics(CLI::App& app,
+                       const std::function<void(std::shared_ptr<const Options>)>& chosen) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand(
       "psychophysics",
@@ -312,10 +319,26 @@ void add(CLI::App& app, Todo& todo) {
                    "DIR: continue an interrupted run; all other options are read from there")
       ->excludes(out);
   command->add_flag("--json", options->json, "one JSON object on the last line");
-  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+  command->callback([options, chosen] { chosen(options); });
+}
+
+void add(CLI::App& app, Todo& todo) {
+  add_psychophysics(
+      app, [&todo](auto options) { todo.work = [options] { return run(*options, nullptr); }; });
+}
+
+void add_row(CLI::App& app, RowTodo& todo) {
+  add_psychophysics(app, [&todo](auto options) {
+    todo.work = [options](Account& account) -> Status {
+      if (options->observer.empty())
+        return error(Trouble::usage, "--observer: is missing; a row has nobody who answers");
+      return run(*options, &account);
+    };
+  });
 }
 
 const Command command{55, add};
+const RowCommand row_command{"psychophysics", add_row};
 
 }  // namespace
 }  // namespace burr::app

@@ -213,7 +213,8 @@ void bones(const Verify& verify, VerifyReport::Part& part) {
                              verdict.overlap, shares.back()});
     };
     device::ArmSettings arm{.mass = 0.1, .damping = 10, .stiffness = 500};
-    (void)bench.work(wander(*place, r, 60 * minutes, 7), arm, true);
+    (void)bench.work(wander(*place, r, 60 * minutes, static_cast<unsigned>(verify.seed_or(7))), arm,
+                     true);
     std::sort(shares.begin(), shares.end());
     const std::string which = subject.name;
     part.at_most(which + ".fallen_through", 0, fell, "ticks");

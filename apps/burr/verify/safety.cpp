@@ -77,7 +77,7 @@ const Vec3 kPressed(0, 0, kRadius - 1 * kMm);  // 1 mm deep: 1 N
 
 // Readings that no hand can give: NaN and infinity, jumps, stalls, in any order.
 void fuzzed(const Verify& verify, VerifyReport::Part& part) {
-  const unsigned seed = 20261122;
+  const auto seed = static_cast<std::mt19937::result_type>(verify.seed_or(20261122));
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0, 1);
   std::normal_distribution<double> stray(0, 1);

@@ -9,10 +9,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "batch/row_command.h"
 #include "commands/command.h"
 #include "commands/interrupt.h"
 #include "page.h"
@@ -34,10 +38,23 @@ std::vector<Known>& known() {
 struct Options {
   std::vector<std::string> names;
   std::string out, data;
+  std::uint64_t seed = 0;
   bool quick = false, json = false;
 };
 
-Status run(const Options& options) {
+// The account of a row: without the times of the parts.
+Account account_of(const VerifyReport& report) {
+  Account account;
+  account.result = nlohmann::json::parse(report.json());
+  for (nlohmann::json& part : account.result["parts"]) {
+    account.times["took_s"][part["name"].get<std::string>()] = part["took_s"];
+    part.erase("took_s");
+  }
+  return account;
+}
+
+// given: takes the account, in which a check that failed is a result; nullptr: all is printed.
+Status run(const Options& options, Account* given) {
   std::vector<Known> parts = known();
   std::sort(parts.begin(), parts.end(),
             [](const Known& a, const Known& b) { return a.place < b.place; });
@@ -53,29 +70,32 @@ Status run(const Options& options) {
     progress().report(0, one.name);
     const auto start = std::chrono::steady_clock::now();
     VerifyReport::Part& part = report.begin(one.name, one.title, one.about);
-    one.work({options.quick, options.data}, part);
+    one.work({options.quick, options.data, options.seed}, part);
     part.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (options.json) continue;
+    if (options.json || given != nullptr) continue;
     for (const Check& check : part.checks) fmt::print("{}\n", VerifyReport::line(check));
     for (const std::string& sentence : part.left_out) fmt::print("not checked: {}\n", sentence);
     std::fflush(stdout);
   }
   if (!options.out.empty())
     if (Status written = report.write(options.out, page(report)); !written) return written;
-  if (options.json) {
+  if (given != nullptr) {
+    *given = account_of(report);
+  } else if (options.json) {
     fmt::print("{}\n", report.json());
   } else {
     fmt::print("{} checks, {} failed{}\n", report.checks(), report.failed(),
                options.out.empty() ? "" : fmt::format("; {}/report.html", options.out));
   }
   if (interrupted()) return error(Trouble::interrupted, "stopped; the checks so far are kept");
-  if (report.failed() > 0)
+  if (report.failed() > 0 && given == nullptr)
     return error(Trouble::failed,
                  fmt::format("{} of {} checks failed", report.failed(), report.checks()));
   return fine();
 }
 
-void add(CLI::App& app, Todo& todo) {
+// chosen: gets the options when they were parsed.
+void add_verify(CLI::App& app, const std::function<void(std::shared_ptr<const Options>)>& chosen) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("verify", "check touch and cutting against known results");
   std::vector<std::string> names;
@@ -87,16 +107,31 @@ void add(CLI::App& app, Todo& todo) {
       ->check(CLI::IsMember(names));
   command->add_flag("--quick", options->quick,
                     "finish within a minute: one resolution, short strokes");
+  command->add_option(
+      "--seed", options->seed,
+      "seed of what is drawn at random in safety and bones (default: the usual one)");
   command->add_option("--data", options->data,
                       "DIR: folder of the real bones (docs/validation.md); default: none");
   command->add_option(
       "--out", options->out,
       "DIR: write report.html, every series as CSV, verify.json and validation.md there");
   command->add_flag("--json", options->json, "one JSON object on the last line");
-  command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
+  command->callback([options, chosen] { chosen(options); });
+}
+
+void add(CLI::App& app, Todo& todo) {
+  add_verify(app,
+             [&todo](auto options) { todo.work = [options] { return run(*options, nullptr); }; });
+}
+
+void add_row(CLI::App& app, RowTodo& todo) {
+  add_verify(app, [&todo](auto options) {
+    todo.work = [options](Account& account) { return run(*options, &account); };
+  });
 }
 
 const Command command{50, add};
+const RowCommand row_command{"verify", add_row};
 
 }  // namespace
 

@@ -6,13 +6,21 @@
 //     }
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "report.h"
 
 namespace burr::app {
 
 struct Verify {
-  bool quick = false;  // about a minute for everything: one resolution, short strokes
-  std::string data;    // folder of real bones; empty: none
+  bool quick = false;      // about a minute for everything: one resolution, short strokes
+  std::string data;        // folder of real bones; empty: none
+  std::uint64_t seed = 0;  // of parts that draw at random; 0: the usual one of each
+
+  [[nodiscard]] std::uint64_t seed_or(std::uint64_t usual) const {
+    return seed == 0 ? usual : seed;
+  }
 };
 
 struct VerifyPart {

@@ -7,6 +7,7 @@
 #include "burr/importing/materials.h"
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/volume_of.h"
+#include "burr/workshop/bone_cache.h"
 #include "burr/workshop/prebuilt_phantom.h"
 
 namespace burr::workshop {
@@ -31,11 +32,14 @@ Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progres
   importing::Imported made;
   const bool usual = recipe.voxel_mm == 0 || recipe.voxel_mm == phantom::default_voxel_mm(name);
   if (usual && !made_of) made.bone = prebuilt_phantom(name, recipe.reserve_bricks);
+  const std::string entry = made.bone ? std::string() : entry_of(recipe);
+  if (auto kept = kept_bone(entry, recipe.reserve_bricks)) made.bone = std::move(kept->bone);
   if (!made.bone) {
     auto bone =
         phantom::phantom(name, recipe.voxel_mm, progress, recipe.reserve_bricks, 2, made_of);
     if (!bone) return bone.error();
     made.bone = std::move(*bone);
+    keep_bone(entry, made);
   }
   importing::ImportSummary& s = made.summary;
   s.format = "formula";
@@ -65,9 +69,13 @@ Result<importing::Imported> open_bone(const scenario::Recipe& recipe, Progress& 
     base::note_input(input);
   if (scenario::is_phantom(recipe.source)) return open_phantom(recipe, progress);
   if (scan != nullptr) return importing::import_bone(*scan, recipe, progress, keep_greys);
+  const std::string entry = keep_greys ? std::string() : entry_of(recipe);
+  if (auto kept = kept_bone(entry, recipe.reserve_bricks)) return std::move(*kept);
   auto read = io::read_scan(recipe.source, read_options(recipe), progress);
   if (!read) return read.error();
-  return importing::import_bone(*read, recipe, progress, keep_greys);
+  auto made = importing::import_bone(*read, recipe, progress, keep_greys);
+  if (made) keep_bone(entry, *made);
+  return made;
 }
 
 }  // namespace burr::workshop
