@@ -13,7 +13,7 @@ set(BURR_PUBLIC base/check base/hash base/progress base/result base/version
   math/*  tool/*  scenario/*  workshop/prepare workshop/open_bone workshop/recording workshop/spared workshop/hand_device
   volume/bone volume/grid volume/tissue volume/sample volume/distance_to volume/thickness volume/volume_of
   volume/iso_vertices haptics/proxy haptics/touch_method haptics/force_law surface/mesher  # to touch and to show a bone without a session
-  device/hand device/device device/simulated_hand device/replayed_hand
+  device/hand device/device device/simulated_hand device/pushed_hand device/replayed_hand
   tick/rows tick/command tick/servo
   phantom/build phantom/shapes phantom/phantoms io/read/read_scan importing/import io/export_part io/write/write_mesh
   surgeon/motion sim/session sim/session_words sim/replay

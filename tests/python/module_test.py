@@ -358,9 +358,9 @@ class Sessions(unittest.TestCase):
                 session.rows()
             gc.collect()
         begun = time.monotonic()
-        some(600)
+        some(400)
         before = resident()
-        many = int(os.environ.get("BURR_MANY_SESSIONS", "1000"))
+        many = int(os.environ.get("BURR_MANY_SESSIONS", "600"))
         some(many)
         self.assertLess(resident() - before, 2 << 20, f"after {many} sessions, {time.monotonic() - begun:.1f} s")
 
