@@ -31,7 +31,7 @@ if(BURR_APP)
   endfunction()
 
   # the parts that tests use as well, compiled once: the window, the report, the doctor, and what they need
-  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/film_file commands/hand_options commands/html_page commands/interrupt commands/outputs commands/picture_size commands/piece_words commands/recording commands/session_words commands/tool_options commands/work serve/stations
+  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/film_file commands/hand_options commands/html_page commands/interrupt commands/outputs commands/picture_size commands/piece_words commands/recording commands/session_words commands/tool_options commands/work school/products serve/stations
     devices/trial devices/trial_words doctor/run_in_process doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
   file(GLOB_RECURSE window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)

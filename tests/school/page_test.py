@@ -243,6 +243,67 @@ def check_figures(page, server, store, folder, sessions):
     assert "pass, A. Berg" in text and "reached, in sessions 1 and 2" in text and "2 of 5" in text, text
 
 
+def check_practice(page, server, store):
+    """When to practise again: the command line and the page say the same, and of too few sessions nothing."""
+    day = 86400_000
+    noon = int(time.time() * 1000) // day * day + day // 2
+    database = sqlite3.connect(store)
+    sessions = [row[0] for row in database.execute("SELECT id FROM session WHERE learner_id = 'otter-2000' ORDER BY started_ms")]
+    template = database.execute("SELECT * FROM session WHERE id = ?", (sessions[0],)).fetchone()
+    rubric = database.execute("SELECT rubric_hash FROM score LIMIT 1").fetchone()[0]
+
+    def practised(learner, last, points):
+        database.execute("INSERT INTO learner VALUES (?, 0, 'PGY1', '', NULL, 0)", (learner,))
+        database.execute("INSERT INTO cohort_member SELECT id, ? FROM cohort", (learner,))
+        for n, value in enumerate(points):
+            id = str(uuid.uuid4())
+            database.execute("INSERT INTO session VALUES (" + ",".join("?" * len(template)) + ")",
+                             (id, learner, template[2], noon - (last + len(points) - 1 - n) * day, *template[4:6], 0, 1, *template[8:]))
+            database.execute("INSERT INTO score VALUES (?, ?, ?, '0.1.0', 'product', ?, 0, 1, 1)", (str(uuid.uuid4()), id, rubric, value))
+
+    practised("plover-1", 3, [80 - 40 / n for n in range(1, 7)])    # rises: due, since a day
+    practised("plover-2", 3, [80 - 40 / n for n in range(1, 9)])    # flat: in 11 days
+    practised("plover-3", 0, [50, 50])                              # too few
+    database.commit()
+    said = {name: json.loads(run("learner", "list", "--store", store, name, "--json").splitlines()[-1])["practice"] for name in ("plover-1", "plover-2", "plover-3")}
+    one = said["plover-1"][0]["next"]
+    same([one["trend"], one["in_days"], one["due"], one["sessions"], one["other_bone"]], ["rising", -1, True, 2, False], "the proposal of a rising curve")
+    one = said["plover-2"][0]["next"]
+    same([one["trend"], one["in_days"], one["due"], one["sessions"], one["other_bone"]], ["flat", 11, False, 1, True], "the proposal of a flat curve")
+    same([said["plover-3"][0]["next"], said["plover-3"][0]["finished"]], [None, 2], "the proposal of too few sessions")
+    text = run("learner", "list", "--store", store, "plover-1")
+    assert "due, from" in text and "because the curve still rises" in text and "a proposal" in text, text
+    text = run("learner", "list", "--store", store, "plover-3")
+    assert "no proposal, 2 of 3 finished sessions" in text, text
+    for name, wanted in said.items():
+        same(json.loads(ask(server, "/api/learner?id=" + name)[1])["practice"], wanted, "the proposal on the page of " + name)
+    all_of = json.loads(ask(server, "/api/overview")[1])
+    same({one["id"]: one["practice"] for one in all_of["learners"] if one["id"] in said}, {name: one[0] for name, one in said.items()}, "proposals of the overview")
+    cohort = all_of["cohorts"][0]["id"]
+    speak(page, "en")
+    go(page, "/")
+    due = page.run("document.getElementById('due').textContent")
+    assert "plover-1" in due and "plover-2" not in due and "plover-3" not in due, due
+    go(page, "/learner/plover-1")
+    text = page.run("document.querySelector('p.again').textContent")
+    assert "due, since" in text and "at most 2 sessions" in text and "still rises" in text and "nobody has tested" in text, text
+    go(page, "/learner/plover-3")
+    text = page.run("document.querySelector('p.again').textContent")
+    assert "2 of 3 finished sessions" in text and "since" not in text, text
+    go(page, f"/cohort/{cohort}/tooth")
+    lines = page.run("[...document.querySelectorAll('table.again tbody tr')].map(row => row.textContent)")
+    found = [next(n for n, line in enumerate(lines) if line.startswith(name)) for name in ("plover-1", "plover-2", "plover-3")]
+    same(found, sorted(found), "the order of who is due")
+    assert "The curve is flat. Better on another bone." in lines[found[1]], lines
+    check_views(page, {"overview_due": "/", "learner_due": "/learner/plover-1", "learner_flat": "/learner/plover-2", "cohort_due": f"/cohort/{cohort}/tooth"})
+    # the rest of this test counts on the people that were there before
+    for table, column in (("score", "session_id"), ("session", "learner_id"), ("cohort_member", "learner_id"), ("learner", "id")):
+        where = "IN (SELECT id FROM session WHERE learner_id LIKE 'plover-%')" if table == "score" else "LIKE 'plover-%'"
+        database.execute(f"DELETE FROM {table} WHERE {column} {where}")
+    database.commit()
+    database.close()
+
+
 def go(page, path):
     page.run("delete document.body.dataset.shown")
     page.run(f"(location.hash === '#' + {json.dumps(path)}) ? dispatchEvent(new Event('hashchange')) : (location.hash = {json.dumps(path)})")
@@ -465,6 +526,7 @@ def main():
             check_guard(server, store, pathlib.Path(place))
             check_marking(page, server, store)
             check_figures(page, server, store, pathlib.Path(place), more)
+            check_practice(page, server, store)
             # markup stays text
             go(page, f"/cohort/{cohort}/tooth")
             assert MARKUP in page.run("document.querySelector('h1').textContent")

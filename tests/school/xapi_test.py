@@ -518,6 +518,46 @@ def cmi5_with_faults(centre):
     same([one["verb"]["id"] for one, _ in centre.lrs.statements()], [VERBS + v for v in ("initialized", "completed", "terminated")], "verbs")
 
 
+def cmi5_waits(centre):
+    """The system answers no more at the end: what it was to be told waits, in order, and is told later; a refusal ends it."""
+    state = {"XDG_STATE_HOME": str(centre.folder / "state")}
+    url = launch(centre)
+    centre.lrs.faults += [{}] + [{"status": 503}] * 40
+    done = centre.run("run", "block", "--headless", "--seconds", "1", "--out", centre.folder / "out", "--cmi5", url, **state)
+    assert "tells it later" in done.stderr, done.stderr
+    same([one["verb"]["id"] for one, _ in centre.lrs.statements()], [VERBS + "initialized"], "verbs")
+    files = list((centre.folder / "state/burr/cmi5").glob("*"))
+    same(len(files), 1, "files that wait")
+    same(files[0].stat().st_mode & 0o777, 0o600, "who may read the token")
+    kept = files[0].read_text()
+    same([one["verb"]["id"] for one in json.loads(kept)["statements"]], [VERBS + "completed", VERBS + "terminated"], "verbs that wait")
+    assert "1 launch" in centre.run("learner", "xapi", "status", **state).stdout
+    centre.lrs.faults[:] = [{"status": 503}] * 3
+    centre.run("learner", "take-in", **state)  # still away: it waits on
+    same(files[0].read_text(), kept, "what waits")
+    centre.lrs.faults.clear()
+    assert "was told" in centre.run("learner", "take-in", **state).stderr
+    told = [one for one, _ in centre.lrs.statements()]
+    same([one["verb"]["id"] for one in told], [VERBS + v for v in ("initialized", "completed", "terminated")], "verbs")
+    same(sorted(one["timestamp"] for one in told), [one["timestamp"] for one in told], "times")
+    same([one.exists() for one in files], [False], "files after that")
+    # the system has ended the session by itself, so it takes the token no more
+    files[0].write_text(kept.replace(json.loads(kept)["statements"][0]["id"], "760e3480-ba55-4991-94b0-01820dbd23ff"))
+    centre.lrs.launch.clear()
+    assert "ended the session by itself" in centre.run("learner", "take-in", **state).stderr
+    same([one.exists() for one in files], [False], "files after a refusal")
+    # nobody waits longer than a week; a torn file is said and goes
+    late = json.loads(kept)
+    late["until_ms"] = 1700000000000
+    files[0].write_text(json.dumps(late))
+    assert "7 days" in centre.run("learner", "take-in", **state).stderr
+    files[0].write_text(kept[:100])
+    assert "cannot be read" in centre.run("learner", "take-in", **state).stderr
+    same([one.exists() for one in files], [False], "files after that")
+    same(len(centre.lrs.statements()), 3, "statements")
+    assert "bG1zOnRva2Vu" not in centre.said
+
+
 def cmi5_is_whole(centre):
     url = launch(centre)
     for name in ("endpoint", "fetch", "actor", "registration", "activityId"):
@@ -528,7 +568,7 @@ def cmi5_is_whole(centre):
 TESTS = [off_makes_nothing, what_a_session_says, profile_names_all, coming_in_sends, many_go_in_batches, error_500, error_503, cut_before,
          cut_within_the_answer, cut_after_it_was_stored, slow, not_an_lrs, too_many, nobody_listens, waits_grow, wrong_credentials,
          conflict_with_the_same, conflict_with_another, too_large, one_is_refused, the_sentence_names_nobody, a_sentence_about_all_is_not_kept, killed, killed_at_any_moment,
-         two_at_once, forget_takes_back, forget_after_a_kill, the_key_is_kept, no_redirection, cmi5, cmi5_browse, cmi5_with_faults, cmi5_is_whole]
+         two_at_once, forget_takes_back, forget_after_a_kill, the_key_is_kept, no_redirection, cmi5, cmi5_browse, cmi5_with_faults, cmi5_waits, cmi5_is_whole]
 
 if __name__ == "__main__":
     wanted = sys.argv[2:]

@@ -19,6 +19,7 @@ function say(key, values = {}) {
 const textOf = (texts, id) => texts?.[language] || texts?.en || id;
 const day = ms => ms == null ? say("not_yet") : new Date(ms).toLocaleDateString(language, { dateStyle: "medium" });
 const time = ms => new Date(ms).toLocaleString(language, { dateStyle: "medium", timeStyle: "short" });
+const dateOf = text => new Date(text + "T12:00").toLocaleDateString(language, { dateStyle: "medium" });  // "2026-12-03"
 const number = (value, digits = 3) => value == null ? "–" : typeof value === "string" ? value : Number(value.toPrecision(digits)).toLocaleString(language);
 
 // ---- elements
@@ -80,6 +81,15 @@ const query = values => "?" + new URLSearchParams(values);
 
 // ---- views
 
+// When to practise again: a proposal, none where there are too few sessions.
+const again = one => one?.next ? dateOf(one.next.day) : "–";
+const againMost = one => !one.next ? "–" : one.next.sessions === 1 ? say("again_one") : say("again_most", { n: one.next.sessions });
+function againWords(one) {
+  if (!one.next) return say("again_few", { n: one.finished, of: one.needed });
+  return say("trend_" + one.next.trend) + (one.next.other_bone ? " " + say("again_other") : "");
+}
+const againFrom = one => !one.next ? "–" : one.next.due ? say("again_due", { day: again(one) }) : again(one);
+
 const sessionsWord = n => n < needed ? say("of_five", { n, of: needed }) : String(n);
 
 async function overview() {
@@ -92,7 +102,8 @@ async function overview() {
   const guided = all.learners.filter(one => one.sessions >= needed && one.unguided === 0);
   const names = list => list.length === 0 ? [say("nobody")] : list.slice(0, 12).flatMap((one, n) => [n ? ", " : "", link(to("learner", one.id), one.id)])
     .concat(list.length > 12 ? [", " + say("one_more", { n: list.length - 12 })] : []);
-  out.push(facts([[say("idle"), el("span", {}, names(idle))], [say("guided_long"), el("span", {}, names(guided))]]));
+  const due = all.learners.filter(one => one.practice?.next?.due).sort((a, b) => a.practice.next.day < b.practice.next.day ? -1 : 1);
+  out.push(facts([[say("due"), el("span", { id: "due" }, names(due))], [say("idle"), el("span", {}, names(idle))], [say("guided_long"), el("span", {}, names(guided))]]));
   if (all.cohorts.length) {
     out.push(el("h2", {}, say("cohorts")));
     out.push(table(say("cohorts"), [[say("cohort")], [say("people"), "number"], [say("case")]], all.cohorts.map(one => [
@@ -100,8 +111,9 @@ async function overview() {
       el("td", {}, all.cases.flatMap((name, n) => [n ? ", " : "", link(to("cohort", one.id, name), name)]))])));
   }
   out.push(el("h2", {}, say("learners")));
-  out.push(table(say("learners"), [[say("learner")], [say("level")], [say("sessions"), "number"], [say("unguided"), "number"], [say("last")]],
-    all.learners.map(one => [link(to("learner", one.id), one.id), one.level || "–", one.sessions, sessionsWord(one.unguided), day(one.last_ms)])));
+  out.push(table(say("learners"), [[say("learner")], [say("level")], [say("sessions"), "number"], [say("unguided"), "number"], [say("last")], [say("again")]],
+    all.learners.map(one => [link(to("learner", one.id), one.id), one.level || "–", one.sessions, sessionsWord(one.unguided), day(one.last_ms), again(one.practice)])));
+  out.push(el("p", {}, say("again_note")));
   return out;
 }
 
@@ -112,11 +124,20 @@ function share(met, of) {
   return [part >= 0.8 ? "good" : part >= 0.4 ? "half" : "bad", met + "/" + of];
 }
 
+// Who of a cohort is due at this case: the earliest first.
+function practised(all) {
+  if (all.practice.length === 0) return [];
+  const rows = [...all.practice].sort((a, b) => (a.next?.day ?? "9") < (b.next?.day ?? "9") ? -1 : 1);
+  return [el("h2", {}, say("again")), el("p", {}, say("again_note")),
+    table(say("again"), [[say("learner")], [say("sessions"), "number"], [say("last")], [say("again_from")], [say("again_how_many")], [say("again_why")]],
+      rows.map(one => [link(to("learner", one.learner), one.learner), one.finished, dateOf(one.last_day), againFrom(one), againMost(one), againWords(one)]), "again")];
+}
+
 async function cohort(id, name) {
   const all = await ask("cohort" + query({ id, case: name }));
   const caption = say("heat", { n: needed });
   const out = [el("h1", {}, say("cohort") + " " + all.title + ", " + name)];
-  if (all.items.length === 0) return [...out, el("p", {}, say("no_sessions"))];
+  if (all.items.length === 0) return [...out, el("p", {}, say("no_sessions")), ...practised(all)];
   const cells = new Map(all.cells.map(one => [one.learner + "\n" + one.item, one]));
   const rows = all.members.map(learner => [link(to("learner", learner), learner), ...all.items.map(item => {
     const cell = cells.get(learner + "\n" + item.id);
@@ -131,7 +152,7 @@ async function cohort(id, name) {
     })]);
   out.push(table(caption, [[say("learner")], ...all.items.map(item => [textOf(item.say, item.id)])], rows, "heat", true));
   if (all.members.length < needed) out.push(el("p", {}, say("heat_few", { n: needed })));
-  return out;
+  return [...out, ...practised(all)];
 }
 
 // Marks over attempts, 0 to 100 %.
@@ -178,6 +199,8 @@ async function learner(id) {
       out.push(el("p", {}, !curve ? say("no_curve") : curve.n90 == null ? say("falling") : say("plateau", { a: Math.round(curve.a), n: number(curve.n90, 2) })));
     }
     out.push(el("p", {}, say("legend")));
+    const next = all.practice.find(p => p.case === one.name);
+    if (next) out.push(el("p", { class: "again" }, el("strong", {}, say("again") + ": "), next.next ? againFrom(next) + ", " + againMost(next) + ". " + againWords(next) + " " + say("again_note") : againWords(next)));
     if (one.unguided < needed) out.push(el("p", { class: "note" }, say("no_decision")));
   }
   out.push(el("h2", {}, say("sessions")));

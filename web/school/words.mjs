@@ -33,6 +33,9 @@ export const words = {
     live_picture: "The window of station {name}", waiting_picture: "Waiting for a picture …", live_rate: "{n} pictures a second", force_now: "Force now", send: "Send", take_mark_away: "Take the mark away",
     word_to_station: "A word to this station", said: "Said to this station", mark: "a mark", station_has_it: "the station has it", on_its_way: "on its way",
     live_note: "Click into the picture to mark a place; it appears on the bone of the station. The station says that it is watched, and nothing can be controlled from here. A session with an instructor's word counts it as help.",
+    due: "Due to practise again", again: "Practise again", again_from: "From", again_how_many: "How many", again_why: "Why", again_due: "due, since {day}", again_one: "1 session that day", again_most: "at most {n} sessions that day",
+    again_few: "No proposal: {n} of {of} finished sessions.", trend_rising: "The curve still rises.", trend_flat: "The curve is flat.", trend_falling: "The curve falls.", trend_unknown: "Too few sessions without guidance for a curve.", again_other: "Better on another bone.",
+    again_note: "A proposal by a fixed rule that nobody has tested with burr. It forbids nothing.",
     foot: "Pseudonyms only; the audit also names who worked with the store. The page talks to its own server and to nobody else.",
   },
   sv: {
@@ -68,6 +71,9 @@ export const words = {
     live_picture: "Fönstret på station {name}", waiting_picture: "Väntar på en bild …", live_rate: "{n} bilder per sekund", force_now: "Kraft nu", send: "Skicka", take_mark_away: "Ta bort märket",
     word_to_station: "Ett ord till stationen", said: "Sagt till stationen", mark: "ett märke", station_has_it: "stationen har det", on_its_way: "på väg",
     live_note: "Klicka i bilden för att märka en plats; den syns på stationens ben. Stationen säger att den är iakttagen, och inget kan styras härifrån. Ett pass med instruktörens ord räknar det som hjälp.",
+    due: "Dags att öva igen", again: "Öva igen", again_from: "Från", again_how_many: "Hur många", again_why: "Varför", again_due: "dags, sedan {day}", again_one: "1 pass den dagen", again_most: "högst {n} pass den dagen",
+    again_few: "Inget förslag: {n} av {of} avslutade pass.", trend_rising: "Kurvan stiger än.", trend_flat: "Kurvan är plan.", trend_falling: "Kurvan faller.", trend_unknown: "För få pass utan ledning för en kurva.", again_other: "Hellre på ett annat ben.",
+    again_note: "Ett förslag efter en fast regel som ingen har prövat med burr. Det förbjuder inget.",
     foot: "Bara pseudonymer; loggen nämner också vem som arbetat med registret. Sidan talar bara med sin egen server.",
   },
   de: {
@@ -103,6 +109,9 @@ export const words = {
     live_picture: "Das Fenster der Station {name}", waiting_picture: "Wartet auf ein Bild …", live_rate: "{n} Bilder in der Sekunde", force_now: "Kraft jetzt", send: "Senden", take_mark_away: "Marke wegnehmen",
     word_to_station: "Ein Wort an diese Station", said: "Zu dieser Station gesagt", mark: "eine Marke", station_has_it: "die Station hat es", on_its_way: "unterwegs",
     live_note: "Klicken Sie ins Bild, um eine Stelle zu markieren; sie erscheint am Knochen der Station. Die Station sagt, dass sie beobachtet wird, und von hier aus lässt sich nichts steuern. Eine Sitzung mit einem Wort der Ausbildung zählt es als Hilfe.",
+    due: "Wieder an der Reihe", again: "Wieder üben", again_from: "Ab", again_how_many: "Wie viele", again_why: "Warum", again_due: "an der Reihe, seit {day}", again_one: "1 Sitzung an diesem Tag", again_most: "höchstens {n} Sitzungen an diesem Tag",
+    again_few: "Kein Vorschlag: {n} von {of} beendeten Sitzungen.", trend_rising: "Die Kurve steigt noch.", trend_flat: "Die Kurve ist flach.", trend_falling: "Die Kurve fällt.", trend_unknown: "Zu wenige Sitzungen ohne Anleitung für eine Kurve.", again_other: "Besser an einem anderen Knochen.",
+    again_note: "Ein Vorschlag nach einer festen Regel, die niemand mit burr geprüft hat. Er verbietet nichts.",
     foot: "Nur Pseudonyme; das Protokoll nennt auch, wer mit dem Speicher gearbeitet hat. Die Seite spricht nur mit ihrem eigenen Server.",
   },
 };

@@ -39,6 +39,7 @@
 #include "commands/summary.h"
 #include "commands/volume_words.h"
 #include "commands/work.h"
+#include "school/xapi.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/window.h"
 #include "window/review/enter_session.h"
@@ -345,11 +346,13 @@ Status launched(const Options& options, Told& told, Work work) {
   if (options.cmi5.empty()) return work();
   if (options.work.volume.source.empty())
     return error(Trouble::usage, "--cmi5: name the case too, for example: burr run temporal-bone");
+  tell_waiting_launches();
   auto launch = lrs::Launch::begin(options.cmi5);
   if (!launch) return launch.error();
   const Status worked = work();
-  const Status ended = (*launch)->end(told.seconds, worked.ok() && told.done);
-  return worked ? ended : worked;
+  const auto ended = (*launch)->end(told.seconds, worked.ok() && told.done, launches_folder());
+  if (ended && !ended->empty()) fmt::print(stderr, "{}\n", *ended);
+  return worked && !ended ? Status(ended.error()) : worked;
 }
 
 // The start page, or sessions on what was named.

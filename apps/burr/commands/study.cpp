@@ -25,6 +25,7 @@
 #include "commands/command.h"
 #include "commands/json_line.h"
 #include "school/agreement.h"
+#include "school/store_command.h"
 #include "school/study_source.h"
 
 namespace burr::app {

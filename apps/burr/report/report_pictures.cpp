@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numbers>
 #include <utility>
 
 #include "burr/metrics/region.h"
@@ -21,28 +19,10 @@ using math::Vec3;
 using render::Colour;
 using scoring::Spot;
 
-constexpr int kSideWide = 440, kSideHigh = 400;    // [pixel]
 constexpr int kProofWide = 300, kProofHigh = 225;  // of a piece of evidence
-constexpr double kAside = 40 * std::numbers::pi / 180;
-constexpr double kSectionHigh = 18e-3;  // height of a section [m]
-constexpr double kMissed = 0.5e-3;      // bone deeper in a region than this is missed [m]
-constexpr double kExcess = 0.25e-3;     // a cut deeper in what must stay than this is too much [m]
-
-// Around the centres of the voxels that lost half a voxel or more.
-math::Aabb removed_box(const volume::Bone& before, const volume::Bone& after) {
-  math::Aabb box;
-  for (volume::BrickIndex brick = 0; brick < before.brick_count(); ++brick) {
-    const volume::Field *was = before.brick_field(brick), *is = after.brick_field(brick);
-    if (was == nullptr) continue;
-    if (is != nullptr && std::memcmp(was, is, volume::kBrickVoxels * sizeof *was) == 0) continue;
-    for (int v = 0; v < volume::kBrickVoxels; ++v) {
-      if (was[v] < volume::kIso || (is != nullptr && is[v] >= volume::kIso)) continue;
-      const math::Ijk ijk = before.brick_ijk(brick) + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
-      box.extend(before.grid().world_from_grid(ijk.cast<double>()));
-    }
-  }
-  return box;
-}
+constexpr double kSectionHigh = 18e-3;             // height of a section [m]
+constexpr double kMissed = 0.5e-3;   // bone deeper in a region than this is missed [m]
+constexpr double kExcess = 0.25e-3;  // a cut deeper in what must stay than this is too much [m]
 
 // A picture of a recorded view.
 render::Camera camera_of(const record::View& view, const Vec3& target, double aspect) {
@@ -89,12 +69,8 @@ Result<ReportPicture> as_picture(const render::Image& image, std::string caption
 
 ReportArtist::ReportArtist(Scored& scored)
     : scored_(scored), cavity_(removed_box(*scored.before, *scored.after)) {
-  const scenario::Lesson& lesson = scored.judged.lesson;
-  const auto& into = scored.judged.work.into;
-  towards_ = !lesson.approach.empty() ? lesson.approach.front()
-             : into                   ? Vec3(-*into)
-                                      : Vec3::UnitZ();
-  towards_.normalize();
+  towards_ = towards_surgeon(scored.judged.lesson, scored.judged.work);
+  sides_ = product_views(cavity_, towards_, scored.judged.work.at);
   views_ = scored.judged.player->views();
 }
 
@@ -186,76 +162,44 @@ ReportArtist::Paint ReportArtist::all_of_the_case() const {
   };
 }
 
-render::Camera ReportArtist::camera_at(const Vec3& target, double height) const {
-  render::Camera camera;
-  camera.target = target;
-  camera.elevation = std::asin(std::clamp(towards_.z(), -1.0, 1.0));
-  camera.azimuth = std::atan2(towards_.x(), -towards_.y());
-  render::orbit(camera, 0, 0);  // not quite at a pole
-  camera.distance = 0.5 * height / std::tan(0.5 * camera.field_of_view);
-  return camera;
-}
-
 Result<ReportPicture> ReportArtist::drawn(int width, int height, std::string caption) {
   const auto image = renderer_->image(scene_, width, height);
   if (!image) return image.error();
   return as_picture(*image, std::move(caption));
 }
 
-// Puts the camera at a side of what was removed; returns the height of what it sees [m].
-double ReportArtist::aim(std::size_t side) {
-  static constexpr std::array<std::pair<double, double>, kSides> kTurns = {
-      {{0, 0}, {0, -kAside}, {-kAside, 0}, {kAside, 0}}};
-  const auto& at = scored_.judged.work.at;
-  const bool nothing = cavity_.empty();
-  const double size = nothing ? 20e-3 : cavity_.extent().maxCoeff();
-  const Vec3 middle = nothing ? at.value_or(Vec3::Zero()) : cavity_.centre();
-  const double height = std::clamp(1.15 * size + 6e-3, 18e-3, 90e-3);
-  scene_.camera = camera_at(middle, height);
-  render::orbit(scene_.camera, kTurns[side].first, kTurns[side].second);
+// Puts the camera at a side of what was removed.
+void ReportArtist::aim(const ProductView& side) {
+  scene_.camera = side.camera;
   scene_.burr.visible = false;
   scene_.markers.clear();
-  return height;
 }
 
 Result<ReportPicture> ReportArtist::side(std::size_t which) {
   static constexpr std::array<Word, kSides> kNames = {Word::report_straight, Word::report_below,
                                                       Word::report_left, Word::report_right};
   if (which == 0) paint(all_of_the_case(), scored_.score.shown.remove);
-  const double height = aim(which);
-  return drawn(kSideWide, kSideHigh,
-               word(kNames[which]) + wide_words(height * kSideWide / kSideHigh));
+  aim(sides_[which]);
+  return drawn(kViewWide, kViewHigh, word(kNames[which]) + wide_words(sides_[which].wide()));
 }
 
 Result<std::vector<ReportArtist::Plain>> ReportArtist::plain() {
-  static constexpr std::array<const char*, kSides> kNames = {"straight", "below", "left", "right"};
   std::vector<Plain> out;
-  double height = 0;
-  for (std::size_t n = 0; n < kSides; ++n) {
-    height = aim(n);
-    auto picture = drawn(kSideWide, kSideHigh, "");
-    if (!picture) return picture.error();
-    out.push_back({kNames[n], height * kSideWide / kSideHigh, std::move(*picture)});
-  }
-  if (cavity_.empty()) return out;
-  static constexpr std::array<std::pair<render::Plane, const char*>, 3> kPlanes = {
-      {{render::Plane::axial, "axial"},
-       {render::Plane::coronal, "coronal"},
-       {render::Plane::sagittal, "sagittal"}}};
-  for (const auto& [plane, name] : kPlanes)
-    for (const int third : {1, 2}) {
-      render::Slice slice;
-      slice.plane = plane;
-      slice.through = cavity_.lo + third / 3.0 * cavity_.extent();
-      slice.height = height;
-      render::Image image{kSideWide, kSideHigh, {}};
-      while (!slicer_->draw(slice, image)) {
-      }
-      auto picture = as_picture(image, "");
+  for (const ProductView& view : sides_) {
+    if (!view.slice) {
+      aim(view);
+      auto picture = drawn(kViewWide, kViewHigh, "");
       if (!picture) return picture.error();
-      out.push_back(
-          {fmt::format("{}-{}", name, third), height * kSideWide / kSideHigh, std::move(*picture)});
+      out.push_back({view.name, view.wide(), std::move(*picture)});
+      continue;
     }
+    render::Image image{kViewWide, kViewHigh, {}};
+    while (!slicer_->draw(*view.slice, image)) {
+    }
+    auto picture = as_picture(image, "");
+    if (!picture) return picture.error();
+    out.push_back({view.name, view.wide(), std::move(*picture)});
+  }
   return out;
 }
 
@@ -263,7 +207,7 @@ Result<ReportPicture> ReportArtist::map_of(const std::vector<Spot>& spots, std::
   math::Aabb box;
   for (const Spot& spot : spots) box.extend(spot.at);
   const double height = std::clamp(1.5 * box.extent().maxCoeff() + 6e-3, 14e-3, 60e-3);
-  scene_.camera = camera_at(box.centre(), height);
+  scene_.camera = camera_from(towards_, box.centre(), height);
   scene_.markers.clear();
   for (const Spot& spot : spots) {
     const Colour colour = spot.kind == Spot::Kind::good   ? kGoodColour

@@ -32,6 +32,7 @@
 #include "burr/render/scene.h"
 #include "burr/render/slice.h"
 #include "burr/surface/worker.h"
+#include "report/product_views.h"
 #include "report/report.h"
 #include "report/scored.h"
 
@@ -70,8 +71,7 @@ class ReportArtist {
   void paint(const Paint& colour, const metrics::Region& region);
   [[nodiscard]] Paint all_of_the_case() const;
   [[nodiscard]] bool is_new(const surface::Vertex& vertex) const;
-  [[nodiscard]] render::Camera camera_at(const math::Vec3& target, double height) const;
-  [[nodiscard]] double aim(std::size_t side);
+  void aim(const ProductView& side);
   [[nodiscard]] Result<ReportPicture> drawn(int width, int height, std::string caption);
   [[nodiscard]] Result<ReportPicture> map_of(const std::vector<scoring::Spot>& spots,
                                              std::string caption);
@@ -87,6 +87,7 @@ class ReportArtist {
   Scored& scored_;
   math::Vec3 towards_;                                  // from the bone to the surgeon
   math::Aabb cavity_;                                   // what was removed; empty: nothing
+  std::vector<ProductView> sides_;                      // and the sections
   render::Scene scene_;                                 // of the bone as it is now
   std::vector<surface::Patch> plain_;                   // its patches in the tissues' own colours
   std::vector<bool> painted_;                           // of them: in other colours now

@@ -25,18 +25,20 @@
 #include "burr/school/export.h"
 #include "burr/school/forget.h"
 #include "burr/school/pending.h"
+#include "burr/school/practice.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
 #include "commands/command.h"
 #include "commands/counted.h"
-#include "commands/json_line.h"
 #include "commands/outputs.h"
 #include "commands/volume_words.h"
 #include "report/marked.h"
 #include "report/report_page.h"
 #include "school/decide.h"
+#include "school/practice_words.h"
 #include "school/session_of.h"
+#include "school/store_command.h"
 #include "school/xapi.h"
 #include "window/shell/words.h"
 
@@ -100,28 +102,14 @@ void say_others(const school::TakenIn& in) {
                in.others == 1 ? "1 session waits" : fmt::format("{} sessions wait", in.others));
 }
 
-Result<school::StorePlace> place(const Options& options) {
-  return school::place_of(options.store, users_places());
-}
-
-// A file with a slip in its name is no new store.
-Status check_there(const school::StorePlace& where) {
-  std::error_code nobody_asks;
-  if (where.address.find("://") != std::string::npos || fs::exists(where.address, nobody_asks))
-    return fine();
-  return error(Trouble::usage,
-               fmt::format("there is no store at {}; make one with `burr learner add`",
-                           base::printable(where.address, 300)));
-}
-
 enum class Make { no, yes };
 
 // Opens the store, takes in the sessions that waited and are scored already, and says what it has to say.
 Result<std::unique_ptr<school::Store>> open_store(const Options& options, Make make = Make::no) {
-  const auto where = place(options);
+  const auto where = store_place(options.store);
   if (!where) return where.error();
   if (make == Make::no)
-    if (const Status there = check_there(*where); !there) return there.error();
+    if (const Status there = check_store_is_there(*where); !there) return there.error();
   auto store = school::Store::open(*where);
   if (!store) return store.error();
   for (const std::string& line : (*store)->notices()) fmt::print(stderr, "{}\n", line);
@@ -136,10 +124,6 @@ Result<std::unique_ptr<school::Store>> open_store(const Options& options, Make m
         in.unscored == 1 ? "1 recording waits" : fmt::format("{} recordings wait", in.unscored));
   say_others(in);
   return store;
-}
-
-void print_json(const Options& options, const Json& json) {
-  if (options.json) fmt::print("{}\n", json_line(json));
 }
 
 // ---- add, list
@@ -163,7 +147,7 @@ Status run_add(Options options) {
   if (!options.person.empty() && (*store)->database().kind() == school::Database::Kind::sqlite)
     fmt::print("the name is in {}\n",
                base::printable(school::names_file((*store)->place().address), 300));
-  print_json(options, {{"id", options.learner.id}, {"named", !options.person.empty()}});
+  print_json(options.json, {{"id", options.learner.id}, {"named", !options.person.empty()}});
   return fine();
 }
 
@@ -223,7 +207,18 @@ Status list_sessions(const Options& options, school::Store& store) {
                row.finished ? "done" : "unfinished", met);
     all.push_back(std::move(one));
   }
-  print_json(options, {{"learner", options.id}, {"sessions", all}});
+  const auto practice = school::practice(store, options.id);
+  if (!practice) return practice.error();
+  Json proposed = Json::array();
+  const std::int64_t today = school::day_here(school::now_ms());
+  if (!practice->empty())
+    fmt::print("\nwhen to practise again, a proposal by a fixed rule (docs/school.md):\n");
+  for (const school::LearnerPractice& one : *practice)
+    for (const school::CasePractice& of : one.cases) {
+      fmt::print("  {}\n", practice_line(of, today));
+      proposed.push_back(practice_json(of, today));
+    }
+  print_json(options.json, {{"learner", options.id}, {"sessions", all}, {"practice", proposed}});
   return fine();
 }
 
@@ -242,29 +237,40 @@ Status run_list(const Options& options) {
   if (!rows) return rows.error();
   if (options.names && !(*store)->reads_only())
     if (const Status noted = (*store)->note("names shown", ""); !noted) return noted;
+  const auto practice = school::practice(**store, "");
+  if (!practice) return practice.error();
+  // of each the case that was practised last
+  std::map<std::string, const school::CasePractice*> practised;
+  for (const school::LearnerPractice& one : *practice) practised[one.learner] = &one.cases.front();
+  const std::int64_t today = school::day_here(school::now_ms());
   Json all = Json::array();
-  fmt::print("{:<22}{:<9}{:>9}  {:<12}{:<10}{:<9}{}\n", "learner", "level", "sessions", "last",
-             "unguided", "research", options.names ? "name" : "");
+  fmt::print("{:<22}{:<9}{:>9}  {:<12}{:<10}{:<12}{:<9}{}\n", "learner", "level", "sessions",
+             "last", "unguided", "again from", "research", options.names ? "name" : "");
   for (const school::LearnerRow& row : *rows) {
     const std::string last = row.last_ms ? day_of(*row.last_ms) : "never";
     const std::string so_far = row.unguided < school::kNeeded
                                    ? fmt::format("{} of {}", row.unguided, school::kNeeded)
                                    : fmt::format("{}", row.unguided);
-    fmt::print("{:<22}{:<9}{:>9}  {:<12}{:<10}{:<9}{}\n", row.learner.id, row.learner.level,
-               row.sessions, last, so_far, row.learner.consent_research ? "yes" : "no",
-               base::printable(row.person.name));
-    all.push_back(json_of(row, options.names));
+    const auto found = practised.find(row.learner.id);
+    const school::CasePractice* of = found == practised.end() ? nullptr : found->second;
+    fmt::print("{:<22}{:<9}{:>9}  {:<12}{:<10}{:<12}{:<9}{}\n", row.learner.id, row.learner.level,
+               row.sessions, last, so_far,
+               of != nullptr && of->next ? school::date_of(of->next->day) : "-",
+               row.learner.consent_research ? "yes" : "no", base::printable(row.person.name));
+    Json one = json_of(row, options.names);
+    one["practice"] = of != nullptr ? practice_json(*of, today) : Json(nullptr);
+    all.push_back(std::move(one));
   }
-  print_json(options, {{"learners", all}});
+  print_json(options.json, {{"learners", all}});
   return fine();
 }
 
 // ---- sessions come in
 
 Status run_enter(const Options& options) {
-  const auto where = place(options);
+  const auto where = store_place(options.store);
   if (!where) return where.error();
-  if (const Status there = check_there(*where); !there) return there;
+  if (const Status there = check_store_is_there(*where); !there) return there;
   const auto record =
       session_of(options.recording, options.id, options.rubric, options.volume, progress());
   if (!record) return record.error();
@@ -275,17 +281,17 @@ Status run_enter(const Options& options) {
   else
     fmt::print("{}: the session waits, and comes into the store at the next start: {}\n",
                record->learner, kept->why);
-  print_json(options, {{"session", school::session_id(*record)},
-                       {"learner", record->learner},
-                       {"stored", kept->stored}});
+  print_json(options.json, {{"session", school::session_id(*record)},
+                            {"learner", record->learner},
+                            {"stored", kept->stored}});
   return fine();
 }
 
 // Also scores recordings; the window starts this beside itself.
 Status run_take_in(const Options& options) {
-  const auto where = place(options);
+  const auto where = store_place(options.store);
   if (!where) return where.error();
-  if (const Status there = check_there(*where); !there) return there;
+  if (const Status there = check_store_is_there(*where); !there) return there;
   std::vector<std::string> notices;
   const std::vector<school::Waiting> all = school::waiting(*where, notices);
   // what is scored once need not be scored again, wherever the server is; nor what cannot be scored
@@ -313,9 +319,10 @@ Status run_take_in(const Options& options) {
   for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
   say_others(in);
   fmt::print("{} came into the store, {} still waiting\n", counted(in.taken, "session"), in.left);
-  print_json(options, {{"taken", in.taken}, {"left", in.left}});
+  print_json(options.json, {{"taken", in.taken}, {"left", in.left}});
   std::fflush(stdout);
   send_what_is_due(**store);
+  tell_waiting_launches();
   return fine();
 }
 
@@ -379,7 +386,7 @@ Status run_forget(const Options& options) {
   }
   if (options.scrub)
     if (const Status clean = school::scrub(**store); !clean) return clean;
-  print_json(options, {{"forgotten", all}});
+  print_json(options.json, {{"forgotten", all}});
   return fine();
 }
 
@@ -401,7 +408,7 @@ Status write_csv(const Options& options, school::Store& store) {
   }
   fmt::print("{}: {}, pseudonyms only\n", base::printable(options.csv, 300),
              counted(files->size(), "table"));
-  print_json(options, {{"tables", files->size()}});
+  print_json(options.json, {{"tables", files->size()}});
   return fine();
 }
 
@@ -465,7 +472,7 @@ Status run_export(const Options& options) {
              counted(files->size(), "file"), options.id);
   for (const std::string& one : missing)
     fmt::print("no report, because the recording is not here: {}\n", base::printable(one, 400));
-  print_json(options, {{"files", files->size()}, {"missing", missing}});
+  print_json(options.json, {{"files", files->size()}, {"missing", missing}});
   return fine();
 }
 
@@ -481,7 +488,7 @@ Status run_cohort_list(const Options& options) {
     fmt::print("{}: {}\n", base::printable(one.title), base::list_of(one.members));
     json.push_back({{"id", one.id}, {"title", one.title}, {"members", one.members}});
   }
-  print_json(options, {{"cohorts", json}});
+  print_json(options.json, {{"cohorts", json}});
   return fine();
 }
 
@@ -508,7 +515,7 @@ Status run_audit(const Options& options) {
                row.what, row.subject);
     all.push_back({{"ms", row.ms}, {"who", row.who}, {"what", row.what}, {"subject", row.subject}});
   }
-  print_json(options, {{"audit", all}});
+  print_json(options.json, {{"audit", all}});
   return fine();
 }
 
@@ -522,16 +529,10 @@ Status run_decide(const Options& options) {
 
 // ---- the command line
 
-using Run = Status (*)(const Options&);
-
 CLI::App* sub(CLI::App& command, const char* name, const char* says,
-              const std::shared_ptr<Options>& options, Todo& todo, Run run) {
-  auto* made = command.add_subcommand(name, says);
-  made->add_option("--store", options->store,
-                   "a file, or postgresql://... (default: BURR_STORE, or school.sqlite in burr's "
-                   "data folder)");
+              const std::shared_ptr<Options>& options, Todo& todo, Status (*run)(const Options&)) {
+  auto* made = store_command<Options>(command, name, says, options, todo, run);
   made->add_flag("--json", options->json, "print a JSON object as the last line");
-  made->callback([options, run, &todo] { todo.work = [options, run] { return run(*options); }; });
   return made;
 }
 

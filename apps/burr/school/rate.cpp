@@ -1,5 +1,5 @@
 // `burr rate`: a person marks what learners made, without knowing whose it is, when it was made, or what the machine says.
-// In the browser the same is a page of `burr serve`.
+// In the browser the same is a page of `burr serve`, and in the window window/rate.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "burr/base/new_file.h"
+#include "burr/base/places.h"
 #include "burr/base/printable.h"
-#include "burr/school/forget.h"
 #include "burr/school/ratings.h"
 #include "burr/school/sessions.h"
 #include "burr/school/study/table.h"
@@ -27,7 +27,10 @@
 #include "commands/volume_words.h"
 #include "report/report_pictures.h"
 #include "report/scored.h"
-#include "school/study_source.h"
+#include "school/products.h"
+#include "school/store_command.h"
+#include "window/rate/rate_page.h"
+#include "window/shell/desk.h"
 
 namespace burr::app {
 namespace {
@@ -37,7 +40,10 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string store, rater, rubric, session, from, pictures;
+  std::string screenshot;
   std::vector<std::string> marks, reasons;
+  double seconds = 0;  // shown in the window
+  bool window = false;
   std::uint64_t seed = 0;  // 0: burr draws one
   std::size_t most = 20;
   scenario::Recipe volume;
@@ -180,24 +186,6 @@ Status mark_from_table(const Options& options, school::Store& store) {
 
 // ---- pictures
 
-Result<std::string> recording_of(school::Store& store, const std::string& session) {
-  const auto found = store.database().rows(
-      "SELECT recording_uri, recording_hash FROM session WHERE id = $1", {session});
-  if (!found) return found.error();
-  if (found->empty())
-    return error(Trouble::usage,
-                 fmt::format("{}: there is no such session", base::printable(session)));
-  // its name may name the learner, so no sentence does
-  const std::string path = school::path_of(school::text((*found)[0][0]));
-  if (path.empty())
-    return error(Trouble::io, "the recording of this session is on another computer");
-  const auto hash = school::sha1_of_file(path);
-  if (!hash || *hash != school::text((*found)[0][1]))
-    return error(Trouble::io,
-                 "the recording of this session is not there any more, or was changed");
-  return path;
-}
-
 Status draw(const Options& options, school::Store& store) {
   const auto recording = recording_of(store, options.session);
   if (!recording) return recording.error();
@@ -238,7 +226,24 @@ Status draw(const Options& options, school::Store& store) {
 
 // ---- the command
 
+// In a window of its own; the page asks who marks where --rater does not say it.
+Status mark_in_window(const Options& options) {
+  const auto place = store_place(options.store);
+  if (!place) return place.error();
+  if (const Status there = check_store_is_there(*place); !there) return there;
+  auto desk = Desk::open(users_places());
+  if (!desk) return desk.error();
+  (*desk)->store = options.store;
+  RateState state;
+  state.rater = options.rater;
+  state.seed = options.seed;
+  const auto left =
+      rate(**desk, state, {.seconds = options.seconds, .screenshot = options.screenshot});
+  return left ? fine() : Status(left.error());
+}
+
 Status run(const Options& options) {
+  if (options.window) return mark_in_window(options);
   auto store = store_that_is_there(options.store);
   if (!store) return store.error();
   if (!options.pictures.empty()) {
@@ -259,8 +264,7 @@ void add(CLI::App& app, Todo& todo) {
   auto* command =
       app.add_subcommand("rate", "a person marks what learners made, without knowing whose it is");
   auto options = std::make_shared<Options>();
-  command->add_option("--store", options->store,
-                      "a file, or postgresql://... (default: as `burr learner`)");
+  add_store_option(*command, options->store);
   command->add_option("--rater", options->rater, "your name or pseudonym");
   command->add_option("--rubric", options->rubric,
                       "only sessions that were scored with it: a name or a hash of the store");
@@ -280,6 +284,18 @@ void add(CLI::App& app, Todo& todo) {
   command->add_option("--volume", options->volume.source,
                       "with --pictures: the volume it was made from (default: burr searches)");
   add_volume_options(*command, options->volume);
+  auto* window = command->add_flag("--window", options->window,
+                                   "in a window: the bone to turn, the same ten views, the items; "
+                                   "no name, day or mark of the machine is shown");
+  for (const char* other : {"--session", "--mark", "--from", "--pictures", "--rubric"})
+    window->excludes(other);
+  command->add_option("--seconds", options->seconds, "close the window after this many seconds")
+      ->check(CLI::Range(0.1, 36'000.0))
+      ->needs(window);
+  command
+      ->add_option("--screenshot", options->screenshot,
+                   "PNG of the window when it closed, with panels")
+      ->needs(window);
   command->add_flag("--json", options->json, "one JSON object, as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
 }

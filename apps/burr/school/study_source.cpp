@@ -3,17 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "burr/base/new_file.h"
-#include "burr/base/places.h"
 #include "burr/base/printable.h"
 #include "burr/school/ratings.h"
 #include "burr/school/study_tables.h"
 #include "burr/scoring/rubric.h"
+#include "school/store_command.h"
 
 namespace burr::app {
 namespace {
@@ -57,21 +56,6 @@ Status write(const std::string& path, const std::string& text) {
 }
 
 }  // namespace
-
-Result<std::unique_ptr<school::Store>> store_that_is_there(const std::string& given) {
-  const auto place = school::place_of(given, users_places());
-  if (!place) return place.error();
-  std::error_code nobody_asks;
-  if (place->address.find("://") == std::string::npos &&
-      !std::filesystem::exists(place->address, nobody_asks))
-    return error(Trouble::io,
-                 fmt::format("there is no store at {}; make one with `burr learner add`",
-                             base::printable(place->address, 300)));
-  auto store = school::Store::open(*place);
-  if (!store) return store.error();
-  for (const std::string& line : (*store)->notices()) fmt::print(stderr, "{}\n", line);
-  return store;
-}
 
 Result<school::study::Table> table_for(const StudySource& source, Asked asked,
                                        const std::vector<std::string>& needed,

@@ -3,13 +3,11 @@
 // Thread: as the Store. Errors: one sentence.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "burr/base/result.h"
 #include "burr/school/decisions.h"
-#include "burr/school/store.h"
 #include "burr/school/study/table.h"
 
 namespace burr::app {
@@ -23,9 +21,6 @@ struct StudySource {
   std::vector<std::string> low, high;  // levels of learners
   std::string out;                     // F.csv: the table that was used; empty: none
 };
-
-// Error, Trouble::io: there is none.
-[[nodiscard]] Result<std::unique_ptr<school::Store>> store_that_is_there(const std::string& given);
 
 enum class Asked { marks, ratings, groups };
 // The same columns from both, so that both give the same figures.

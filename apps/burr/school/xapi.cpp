@@ -10,17 +10,17 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <thread>
 
 #include "burr/base/places.h"
 #include "burr/base/printable.h"
+#include "burr/lrs/launch.h"
 #include "burr/lrs/sender.h"
 #include "burr/school/outbox.h"
 #include "commands/command.h"
 #include "commands/counted.h"
 #include "commands/interrupt.h"
-#include "commands/json_line.h"
+#include "school/store_command.h"
 
 namespace burr::app {
 namespace {
@@ -33,32 +33,12 @@ struct Options {
   double seconds = 0, wait_s = 30;
 };
 
-Result<std::unique_ptr<school::Store>> open_store(const Options& options) {
-  const auto where = school::place_of(options.store, users_places());
-  if (!where) return where.error();
-  if (!school::is_wanted(options.store, *where))
-    return error(Trouble::usage, fmt::format("there is no store at {}; make one with `burr learner "
-                                             "add`",
-                                             school::shown(where->address)));
-  std::error_code nobody_asks;
-  if (where->address.find("://") == std::string::npos &&
-      !std::filesystem::exists(where->address, nobody_asks))
-    return error(Trouble::usage, fmt::format("there is no store at {}; make one with `burr learner "
-                                             "add`",
-                                             base::printable(where->address, 300)));
-  return school::Store::open(*where);
-}
-
 std::string time_of(std::int64_t ms) {
   return fmt::format("{:%Y-%m-%d %H:%M:%S}Z", fmt::gmtime(static_cast<std::time_t>(ms / 1000)));
 }
 
-void print_json(const Options& options, const Json& json) {
-  if (options.json) fmt::print("{}\n", json_line(json));
-}
-
 Status run_switch(const Options& options, bool on) {
-  auto store = open_store(options);
+  auto store = store_that_is_there(options.store);
   if (!store) return store.error();
   if (const Status set = school::set_home_page(**store, on ? options.home_page : std::string());
       !set)
@@ -73,7 +53,7 @@ Status run_switch(const Options& options, bool on) {
 }
 
 Status run_status(const Options& options) {
-  auto store = open_store(options);
+  auto store = store_that_is_there(options.store);
   if (!store) return store.error();
   const auto now = school::outbox_status(**store);
   if (!now) return now.error();
@@ -92,21 +72,29 @@ Status run_status(const Options& options) {
     parked.push_back({{"id", one.id}, {"verb", one.verb}, {"why", one.why}});
   }
   if (now->parked > 0) fmt::print("`burr learner xapi retry` lets parked ones wait again\n");
-  print_json(options, {{"on", !now->home_page.empty()},
-                       {"home_page", now->home_page},
-                       {"waiting", now->waiting},
-                       {"sent", now->sent},
-                       {"parked", now->parked},
-                       {"trouble", now->trouble},
-                       {"next_ms", now->waiting > 0 ? Json(next) : Json(nullptr)},
-                       {"first_parked", parked}});
+  const std::size_t launches = lrs::count_waiting(launches_folder());
+  if (launches > 0)
+    fmt::print(
+        "{}, of which a learning management system was not told yet; `burr learner take-in` "
+        "tries\n",
+        launches == 1 ? "1 launch" : fmt::format("{} launches", launches));
+  print_json(options.json, {{"on", !now->home_page.empty()},
+                            {"home_page", now->home_page},
+                            {"waiting", now->waiting},
+                            {"sent", now->sent},
+                            {"parked", now->parked},
+                            {"trouble", now->trouble},
+                            {"next_ms", now->waiting > 0 ? Json(next) : Json(nullptr)},
+                            {"first_parked", parked},
+                            {"launches", launches}});
   return fine();
 }
 
 Status run_send(const Options& options) {
+  tell_waiting_launches();
   const auto lrs = lrs::read_lrs(options.key_file, users_places().config);
   if (!lrs) return lrs.error();
-  auto store = open_store(options);
+  auto store = store_that_is_there(options.store);
   if (!store) return store.error();
   const auto until =
       std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
@@ -121,14 +109,14 @@ Status run_send(const Options& options) {
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }
   fmt::print("{} sent, {} parked\n", counted(all.sent, "statement"), all.parked);
-  print_json(options, {{"sent", all.sent}, {"parked", all.parked}, {"trouble", all.trouble}});
+  print_json(options.json, {{"sent", all.sent}, {"parked", all.parked}, {"trouble", all.trouble}});
   if (!all.trouble.empty())
     return error(Trouble::io, fmt::format("the rest waits: {}", all.trouble));
   return fine();
 }
 
 Status run_retry(const Options& options) {
-  auto store = open_store(options);
+  auto store = store_that_is_there(options.store);
   if (!store) return store.error();
   const auto some = school::unpark(**store);
   if (!some) return some.error();
@@ -146,18 +134,6 @@ Status run_test(const Options& options) {
   return fine();
 }
 
-using Run = Status (*)(const Options&);
-
-CLI::App* sub(CLI::App& command, const char* name, const char* says,
-              const std::shared_ptr<Options>& options, Todo& todo, Run run) {
-  auto* made = command.add_subcommand(name, says);
-  made->add_option("--store", options->store,
-                   "a file, or postgresql://... (default: BURR_STORE, or school.sqlite in burr's "
-                   "data folder)");
-  made->callback([options, run, &todo] { todo.work = [options, run] { return run(*options); }; });
-  return made;
-}
-
 void add_key_file(CLI::App& command, Options& options) {
   command.add_option("--key-file", options.key_file,
                      "a file with two lines, the endpoint and KEY:SECRET, readable by you alone "
@@ -171,20 +147,23 @@ void add_xapi(CLI::App& learner, Todo& todo) {
       learner.add_subcommand("xapi", "statements about sessions for a learning record store");
   command->require_subcommand(1);
   auto options = std::make_shared<Options>();
-  auto* on = sub(*command, "on", "sessions that come in make statements from now on", options, todo,
-                 [](const Options& given) { return run_switch(given, true); });
+  auto* on = store_command<Options>(
+      *command, "on", "sessions that come in make statements from now on", options, todo,
+      [](const Options& given) { return run_switch(given, true); });
   on->add_option("--home-page", options->home_page,
                  "the centre's address; with it a pseudonym is an account")
       ->required();
   options = std::make_shared<Options>();
-  sub(*command, "off", "no more statements are made or sent", options, todo,
-      [](const Options& given) { return run_switch(given, false); });
+  store_command<Options>(*command, "off", "no more statements are made or sent", options, todo,
+                         [](const Options& given) { return run_switch(given, false); });
   options = std::make_shared<Options>();
-  auto* status = sub(*command, "status", "what waits, what was sent, what the server refused",
-                     options, todo, run_status);
+  auto* status = store_command<Options>(*command, "status",
+                                        "what waits, what was sent, what the server refused",
+                                        options, todo, run_status);
   status->add_flag("--json", options->json, "print a JSON object as the last line");
   options = std::make_shared<Options>();
-  auto* send = sub(*command, "send", "send what is due", options, todo, run_send);
+  auto* send =
+      store_command<Options>(*command, "send", "send what is due", options, todo, run_send);
   add_key_file(*send, *options);
   send->add_flag("--now", options->now, "also what is to be tried later");
   send->add_option("--for", options->seconds, "go on for this many seconds with what becomes due")
@@ -194,11 +173,22 @@ void add_xapi(CLI::App& learner, Todo& todo) {
       ->capture_default_str();
   send->add_flag("--json", options->json, "print a JSON object as the last line");
   options = std::make_shared<Options>();
-  sub(*command, "retry", "let parked statements wait again", options, todo, run_retry);
+  store_command<Options>(*command, "retry", "let parked statements wait again", options, todo,
+                         run_retry);
   options = std::make_shared<Options>();
-  auto* test =
-      sub(*command, "test", "ask the server whether it can be used", options, todo, run_test);
+  auto* test = store_command<Options>(*command, "test", "ask the server whether it can be used",
+                                      options, todo, run_test);
   add_key_file(*test, *options);
+}
+
+std::filesystem::path launches_folder() { return users_places().state / "cmi5"; }
+
+void tell_waiting_launches() {
+  const lrs::ToldLater told = lrs::tell_waiting(launches_folder());
+  if (told.launches > 0)
+    fmt::print(stderr, "{} that waited: the learning management system was told\n",
+               told.launches == 1 ? "1 launch" : fmt::format("{} launches", told.launches));
+  for (const std::string& line : told.notices) fmt::print(stderr, "{}\n", line);
 }
 
 void send_what_is_due(school::Store& store) {

@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <system_error>
 #include <vector>
 
 #include "burr/base/printable.h"
 #include "burr/school/decisions.h"
-#include "burr/school/forget.h"
 #include "burr/school/ratings.h"
 #include "burr/school/sessions.h"
 #include "burr/school/study/raters.h"
@@ -22,6 +19,7 @@
 #include "burr/school/uuid.h"
 #include "commands/json_line.h"
 #include "school/agreement.h"
+#include "school/products.h"
 #include "serve/school_api.h"
 
 namespace burr::app {
@@ -184,27 +182,22 @@ Response RatingDesk::next(const Request& request) {
   const std::string rater = text_in(asked, "rater");
   if (const Status good = school::check_name("the rater", rater); !good)
     return refused_by(good.error());
-  const auto queue = school::to_mark(store_, rater, text_in(asked, "rubric"), seed_);
+  const auto queue = products_here(store_, rater, text_in(asked, "rubric"), seed_);
   if (!queue) return refused_by(queue.error());
+  const std::vector<school::Product>& here = queue->here;
   const auto all = school::rubrics(store_);
   if (!all) return refused_by(all.error());
-  std::vector<const school::Product*> here;
-  std::error_code nobody_asks;
-  for (const school::Product& one : *queue)
-    if (const std::string path = school::path_of(one.recording_uri);
-        !path.empty() && std::filesystem::exists(path, nobody_asks))
-      here.push_back(&one);
   Json out = {{"left", here.size()},
-              {"elsewhere", queue->size() - here.size()},
+              {"elsewhere", queue->elsewhere},
               {"read_only", store_.reads_only()},
               {"rubrics", Json::array()},
               {"code", nullptr}};
   for (const school::RubricRow& one : *all)
     out["rubrics"].push_back({{"hash", one.hash}, {"name", one.name}, {"version", one.version}});
   if (here.empty()) return told(out);
-  out["code"] = code_for({rater, here[0]->session, here[0]->rubric_hash, here[0]->case_name});
-  pictures_.want(here[0]->session);
-  if (here.size() > 1) pictures_.want(here[1]->session, false);
+  out["code"] = code_for({rater, here[0].session, here[0].rubric_hash, here[0].case_name});
+  pictures_.want(here[0].session);
+  if (here.size() > 1) pictures_.want(here[1].session, false);
   return told(out);
 }
 
@@ -212,9 +205,8 @@ Response RatingDesk::product(const Request& request) {
   const auto found = tickets_.find(request.asked("code"));
   if (found == tickets_.end()) return serve::refusal(404, "there is no such product to mark");
   const Ticket& ticket = found->second;
-  const auto items = school::items_of(store_, ticket.session);
+  const auto items = product_items(store_, ticket.session, ticket.rubric_hash);
   if (!items) return refused_by(items.error());
-  auto words = words_of(store_, ticket.rubric_hash);
   pictures_.want(ticket.session);
   const ProductPictures* drawn = pictures_.of(ticket.session);
   Json out = {{"case", ticket.case_name},
@@ -222,9 +214,7 @@ Response RatingDesk::product(const Request& request) {
               {"trouble", drawn != nullptr ? drawn->trouble : std::string()},
               {"pictures", Json::array()},
               {"items", Json::array()}};
-  for (const school::ItemRow& one : *items)
-    if (one.part == "product")  // the way there cannot be seen in pictures
-      out["items"].push_back({{"id", one.id}, {"say", words[one.id]}});
+  for (const ProductItem& one : *items) out["items"].push_back({{"id", one.id}, {"say", one.say}});
   if (drawn != nullptr)
     for (const ProductPicture& one : drawn->pictures)
       out["pictures"].push_back({{"name", one.name},

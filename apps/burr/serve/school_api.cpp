@@ -13,11 +13,13 @@
 
 #include "burr/base/version.h"
 #include "burr/school/export.h"
+#include "burr/school/practice.h"
 #include "burr/school/sessions.h"
 #include "burr/school/study/curve.h"
 #include "burr/scoring/measure_list.h"
 #include "burr/scoring/rubric.h"
 #include "commands/json_line.h"
+#include "school/practice_words.h"
 
 namespace burr::app {
 namespace {
@@ -71,7 +73,7 @@ Json brief(const school::SessionRow& session) {
 
 // ---- views
 
-Response overview_of(Store& store) {
+Response overview_of(Store& store, school::PracticeMemo& memo) {
   // the page is open for days
   if (const Status looked = store.look_again(); !looked) return trouble(looked.error());
   const auto learners = school::learners(store, false);
@@ -87,12 +89,19 @@ Response overview_of(Store& store) {
   for (const school::Cohort& one : *cohorts)
     out["cohorts"].push_back(
         {{"id", one.id}, {"title", one.title}, {"members", one.members.size()}});
+  const auto practice = school::practice(store, "", &memo);
+  if (!practice) return trouble(practice.error());
+  const std::int64_t today = school::day_here(school::now_ms());
+  std::map<std::string, Json> again;  // of the case that was practised last
+  for (const school::LearnerPractice& one : *practice)
+    again[one.learner] = practice_json(one.cases.front(), today);
   for (const school::LearnerRow& one : *learners)
     out["learners"].push_back({{"id", one.learner.id},
                                {"level", one.learner.level},
                                {"sessions", one.sessions},
                                {"unguided", one.unguided},
-                               {"last_ms", or_null(one.last_ms)}});
+                               {"last_ms", or_null(one.last_ms)},
+                               {"practice", std::move(again[one.learner.id])}});
   return answer(out);
 }
 
@@ -106,7 +115,7 @@ std::string rubric_of_case(Store& store, const std::string& case_name) {
   return !rows || rows->empty() ? std::string() : school::text((*rows)[0][0]);
 }
 
-Response cohort(Store& store, const Request& request) {
+Response cohort(Store& store, const Request& request, school::PracticeMemo& memo) {
   const auto all = school::cohorts(store);
   if (!all) return trouble(all.error());
   const auto found = std::find_if(all->begin(), all->end(), [&](const school::Cohort& one) {
@@ -116,11 +125,8 @@ Response cohort(Store& store, const Request& request) {
   const std::string case_name = request.asked("case");
   const auto cells = school::items_of_cohort(store, found->id, case_name);
   if (!cells) return trouble(cells.error());
-  Json out = {{"title", found->title},
-              {"members", found->members},
-              {"items", Json::array()},
-              {"cells", Json::array()},
-              {"shares", Json::array()}};
+  Json out = {{"title", found->title},  {"members", found->members}, {"items", Json::array()},
+              {"cells", Json::array()}, {"shares", Json::array()},   {"practice", Json::array()}};
   auto words = words_of(store, rubric_of_case(store, case_name));
   std::set<std::string> items;
   for (const school::Cell& cell : *cells) {
@@ -134,6 +140,16 @@ Response cohort(Store& store, const Request& request) {
   for (const school::ItemShare& one : school::shares(*cells))
     out["shares"].push_back(
         {{"item", one.item}, {"people", one.people}, {"share", or_null(one.share_met)}});
+  const auto practice = school::practice(store, "", &memo);
+  if (!practice) return trouble(practice.error());
+  const std::set<std::string> members(found->members.begin(), found->members.end());
+  const std::int64_t today = school::day_here(school::now_ms());
+  for (const school::LearnerPractice& one : *practice)
+    for (const school::CasePractice& of : one.cases)
+      if (of.case_name == case_name && members.contains(one.learner)) {
+        out["practice"].push_back(practice_json(of, today));
+        out["practice"].back()["learner"] = one.learner;
+      }
   return answer(out);
 }
 
@@ -160,7 +176,7 @@ Json curve_of(const std::vector<school::study::Attempt>& attempts) {
   return out;
 }
 
-Response learner(Store& store, const Request& request) {
+Response learner(Store& store, const Request& request, school::PracticeMemo& memo) {
   const std::string id = request.asked("id");
   const auto there = store.database().rows("SELECT level FROM learner WHERE id = $1", {id});
   if (!there) return trouble(there.error());
@@ -170,7 +186,13 @@ Response learner(Store& store, const Request& request) {
   Json out = {{"id", id},
               {"level", school::text((*there)[0][0])},
               {"cases", Json::array()},
+              {"practice", Json::array()},
               {"sessions", Json::array()}};
+  const auto practice = school::practice(store, id, &memo);
+  if (!practice) return trouble(practice.error());
+  for (const school::LearnerPractice& one : *practice)
+    for (const school::CasePractice& of : one.cases)
+      out["practice"].push_back(practice_json(of, school::day_here(school::now_ms())));
   std::map<std::string, Json> cases;
   for (const school::SessionRow& session : *sessions) {
     const auto scores = school::scores_of(store, session.id);
@@ -304,11 +326,11 @@ std::map<std::string, nlohmann::ordered_json> words_of(Store& store,
   return out;
 }
 
-Response answer_of_school(Store& store, const Request& request) {
+Response answer_of_school(Store& store, const Request& request, school::PracticeMemo& memo) {
   if (request.method == "POST") return serve::refusal(405, "nothing can be changed here");
-  if (request.path == "/api/overview") return overview_of(store);
-  if (request.path == "/api/cohort") return cohort(store, request);
-  if (request.path == "/api/learner") return learner(store, request);
+  if (request.path == "/api/overview") return overview_of(store, memo);
+  if (request.path == "/api/cohort") return cohort(store, request, memo);
+  if (request.path == "/api/learner") return learner(store, request, memo);
   if (request.path == "/api/session") return session(store, request);
   if (request.path == "/api/audit") return audit_of(store);
   if (request.path == "/api/sessions.csv") return csv(store);

@@ -13,13 +13,14 @@
 #include <utility>
 #include <vector>
 
-#include "burr/base/places.h"
 #include "burr/school/pending.h"
+#include "burr/school/practice.h"
 #include "burr/school/store.h"
 #include "burr/serve/guard.h"
 #include "burr/serve/http_server.h"
 #include "commands/built_page.h"
 #include "commands/command.h"
+#include "school/store_command.h"
 #include "serve/page_files.h"
 #include "serve/rating_api.h"
 #include "serve/replays.h"
@@ -100,16 +101,7 @@ serve::Response page(const serve::Request& request,
 
 Status run(const Options& options) {
   if (const Status good = check(options); !good) return good;
-  const auto place = school::place_of(options.store, users_places());
-  if (!place) return place.error();
-  if (!school::is_wanted(options.store, *place))
-    return error(
-        Trouble::io,
-        fmt::format(
-            "there is no store of learners at {}; make one with `burr learner add`, or name one "
-            "with --store",
-            school::shown(place->address)));
-  auto store = school::Store::open(*place);
+  auto store = store_that_is_there(options.store);
   if (!store) return store.error();
   auto token =
       options.token_file.empty() ? serve::new_token() : serve::token_from(options.token_file);
@@ -132,6 +124,9 @@ Status run(const Options& options) {
   Replays replays;
   Stations stations;
   RatingDesk desk(**store);
+  school::PracticeMemo memo;
+  // its curves are fitted before anybody waits for the first page; what goes wrong here is said by that page
+  static_cast<void>(school::practice(**store, "", &memo));
   serve::Door door = options.door;
   door.port = static_cast<unsigned short>(options.port);
   auto server = serve::HttpServer::open(door, [&](const serve::Request& request) {
@@ -141,17 +136,16 @@ Status run(const Options& options) {
     if (request.path.starts_with("/api/replay")) return replays.answer(**store, request);
     if (!request.path.starts_with("/api/")) return page(request, view);
     if (auto marked = desk.answer(request)) return std::move(*marked);
-    return answer_of_school(**store, request);
+    return answer_of_school(**store, request, memo);
   });
   if (!server) return server.error();
   guard.hosts = hosts_of(options, (*server)->port());
-  for (const std::string& notice : (*store)->notices()) fmt::print(stderr, "{}\n", notice);
   if (view.empty())
     fmt::print(stderr, "the page can replay no session in 3D: {}\n", built_page().error().text);
   fmt::print(
       "store: {}\nOpen this address in a browser. Whoever has it can read the store:\n  "
       "{}://{}/#token={}\n",
-      school::shown(place->address), guard.tls ? "https" : "http", guard.hosts.front(),
+      school::shown((*store)->place().address), guard.tls ? "https" : "http", guard.hosts.front(),
       guard.token);
   if (!guard.station_token.empty())
     fmt::print(
@@ -169,9 +163,7 @@ Status run(const Options& options) {
 void add(CLI::App& app, Todo& todo) {
   auto* command = app.add_subcommand("serve", "the instructor's page, in a browser");
   auto options = std::make_shared<Options>();
-  command->add_option(
-      "--store", options->store,
-      "the store of learners: a file, or postgresql://... (default: as `burr learner`)");
+  add_store_option(*command, options->store);
   command->add_option("--port", options->port, "0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

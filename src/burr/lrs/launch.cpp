@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "burr/base/new_file.h"
 #include "burr/base/printable.h"
 #include "burr/http/client.h"
 #include "burr/school/statements.h"
@@ -50,12 +56,15 @@ Error refuses(const char* what, const http::Answer& answer) {
 
 }  // namespace
 
-struct Launch::Parts {
-  std::string endpoint, registration, activity, token;
-  Json actor, context;
-  bool normal = true;
+namespace {
+
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+// Where statements go, and with what right.
+struct Post {
+  std::string endpoint, token;
   double wait_s = 15;
-  std::int64_t last_ms = 0;
 
   [[nodiscard]] Result<http::Answer> ask(const char* method, const std::string& path,
                                          const std::string& body) const {
@@ -66,6 +75,70 @@ struct Launch::Parts {
                        {"Content-Type", "application/json"}},
                       body,
                       wait_s});
+  }
+
+  struct Heard {
+    bool answered = true;  // false: later, perhaps
+    Status status = fine();
+  };
+  // The id stays the same, so trying again does no harm.
+  [[nodiscard]] Heard tell(const Json& one, Clock::time_point until) const {
+    const std::string path = "/statements?statementId=" + one["id"].get<std::string>();
+    for (std::chrono::milliseconds pause(500);; pause *= 2) {
+      const auto answer = ask("PUT", path, one.dump());
+      // 409: it has it from a try whose answer was lost
+      if (answer && (answer->status == 204 || answer->status == 200 || answer->status == 409))
+        return {};
+      const bool again = !answer || answer->status == 429 || answer->status >= 500;
+      if (!again || Clock::now() + pause > until)
+        return {!again, answer ? refuses("a statement", *answer) : answer.error()};
+      std::this_thread::sleep_for(pause);
+    }
+  }
+};
+
+Clock::time_point after(double seconds) {
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+constexpr std::int64_t kDay = 86'400'000;  // [ms]
+
+// For this user alone: the token is in it.
+Status keep(const fs::path& folder, const Post& post, const Json& statements) {
+  std::error_code trouble;
+  fs::create_directories(folder, trouble);
+  auto file = base::NewFile::create((folder / (school::uuid_at_random() + ".json")).string(), 0600);
+  if (!file) return file.error();
+  file->write(Json{{"endpoint", post.endpoint},
+                   {"token", post.token},
+                   {"until_ms", school::now_ms() + kDaysToWait * kDay},
+                   {"statements", statements}}
+                  .dump());
+  return file->put_in_place();
+}
+
+std::vector<fs::path> waiting_in(const fs::path& folder) {
+  std::vector<fs::path> all;
+  std::error_code nobody_asks;
+  for (const auto& entry : fs::directory_iterator(folder, nobody_asks))
+    if (entry.path().extension() == ".json") all.push_back(entry.path());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+struct Launch::Parts {
+  std::string registration, activity;
+  Post post;
+  Json actor, context;
+  bool normal = true;
+  std::int64_t last_ms = 0;
+
+  [[nodiscard]] Result<http::Answer> ask(const char* method, const std::string& path,
+                                         const std::string& body) const {
+    return post.ask(method, path, body);
   }
 
   // One of the statements that cmi5 defines.
@@ -96,24 +169,8 @@ struct Launch::Parts {
     return out;
   }
 
-  // The id stays the same, so trying again does no harm.
-  [[nodiscard]] Status tell(const Json& one, double patience_s) const {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience_s);
-    const std::string path = "/statements?statementId=" + one["id"].get<std::string>();
-    for (std::chrono::milliseconds pause(500);; pause *= 2) {
-      const auto answer = ask("PUT", path, one.dump());
-      // 409: it has it from a try whose answer was lost
-      if (answer && (answer->status == 204 || answer->status == 200 || answer->status == 409))
-        return fine();
-      const bool again = !answer || answer->status == 429 || answer->status >= 500;
-      if (!again || std::chrono::steady_clock::now() + pause > until)
-        return answer ? refuses("a statement", *answer) : answer.error();
-      std::this_thread::sleep_for(pause);
-    }
-  }
-
   [[nodiscard]] Status fetch(const std::string& url) {
-    const auto answer = http::ask({"POST", url, {}, "", wait_s});
+    const auto answer = http::ask({"POST", url, {}, "", post.wait_s});
     if (!answer) return answer.error();
     const Json read = Json::parse(answer->body, nullptr, false);
     if (answer->status != 200 || !read.is_object() || !read.contains("auth-token") ||
@@ -127,7 +184,7 @@ struct Launch::Parts {
                                "the unit there again",
                                base::printable(why, 200)));
     }
-    token = read["auth-token"];
+    std::string& token = post.token = read["auth-token"];
     if (std::any_of(token.begin(), token.end(),
                     [](char c) { return static_cast<unsigned char>(c) <= 0x20 || c == 0x7f; }))
       return error(Trouble::io, "--cmi5: the token cannot be used");
@@ -173,39 +230,91 @@ Result<std::unique_ptr<Launch>> Launch::begin(const std::string& url, double wai
       return error(
           Trouble::usage,
           fmt::format("--cmi5: {} is missing in the address; copy it whole, in quotes", name));
-  parts->endpoint = query["endpoint"];
-  while (!parts->endpoint.empty() && parts->endpoint.back() == '/') parts->endpoint.pop_back();
+  std::string& endpoint = parts->post.endpoint = query["endpoint"];
+  while (!endpoint.empty() && endpoint.back() == '/') endpoint.pop_back();
   parts->registration = query["registration"];
   parts->activity = query["activityId"];
   parts->actor = Json::parse(query["actor"], nullptr, false);
-  parts->wait_s = wait_s;
+  parts->post.wait_s = wait_s;
   if (!parts->actor.is_object() || !parts->actor.contains("account"))
     return error(Trouble::usage, "--cmi5: actor is no account of a learner");
   if (!is_uuid(parts->registration))
     return error(Trouble::usage, "--cmi5: registration is no UUID");
-  for (const std::string& one : {parts->endpoint, query["fetch"]})
+  for (const std::string& one : {endpoint, query["fetch"]})
     if (const auto good = http::parse_url(one); !good)
       return error(Trouble::usage, "--cmi5: " + good.error().text);
   if (const Status done = parts->fetch(query["fetch"]); !done) return done.error();
   if (const Status done = parts->read_launch_data(); !done) return done.error();
-  if (const Status done = parts->tell(parts->statement("initialized", nullptr, false), 20); !done)
-    return done.error();
+  const Status begun =
+      parts->post.tell(parts->statement("initialized", nullptr, false), after(20)).status;
+  if (!begun) return begun.error();
   return std::unique_ptr<Launch>(new Launch(std::move(parts)));
 }
 
 bool Launch::counts() const { return parts_->normal; }
 
-Status Launch::end(double seconds, bool finished, double patience_s) {
+Result<std::string> Launch::end(double seconds, bool finished, const fs::path& wait_in,
+                                double patience_s) {
   const std::string took = school::iso_duration(seconds);
-  Status told = fine();
+  Json all = Json::array();
   if (finished && parts_->normal)
-    told = parts_->tell(
-        parts_->statement("completed", {{"completion", true}, {"duration", took}}, true),
-        patience_s);
+    all.push_back(parts_->statement("completed", {{"completion", true}, {"duration", took}}, true));
   // said in any case, so that the system lets the learner begin anew
-  const Status ended =
-      parts_->tell(parts_->statement("terminated", {{"duration", took}}, false), patience_s);
-  return told ? ended : told;
+  all.push_back(parts_->statement("terminated", {{"duration", took}}, false));
+  const Clock::time_point until = after(patience_s);
+  Status refused = fine();
+  while (!all.empty()) {
+    const Post::Heard heard = parts_->post.tell(all.front(), until);
+    if (!heard.answered) {
+      // nothing may come after "terminated", so what is not said waits with all after it
+      const Status kept = keep(wait_in, parts_->post, all);
+      if (!kept) return error(Trouble::io, heard.status.error().text + "; " + kept.error().text);
+      return heard.status.error().text +
+             ". burr tells it later, at its next start with --cmi5 or by `burr learner take-in`";
+    }
+    if (!heard.status && refused) refused = heard.status;
+    all.erase(0);
+  }
+  if (!refused) return refused.error();
+  return std::string();
 }
+
+ToldLater tell_waiting(const fs::path& folder, double wait_s) {
+  ToldLater out;
+  std::error_code nobody_asks;
+  for (const fs::path& file : waiting_in(folder)) {
+    std::ifstream in(file);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const Json read = Json::parse(text, nullptr, false);
+    const bool whole = read.is_object() && read.value("endpoint", Json()).is_string() &&
+                       read.value("token", Json()).is_string() &&
+                       read.value("statements", Json()).is_array();
+    if (!whole || read.value("until_ms", std::int64_t{0}) < school::now_ms()) {
+      out.notices.push_back(
+          whole ? fmt::format("a learning management system did not answer for {} days; it was not "
+                              "told that a session ended",
+                              kDaysToWait)
+                : "what a learning management system was to be told cannot be read any more");
+      fs::remove(file, nobody_asks);
+      continue;
+    }
+    const Post post{read["endpoint"], read["token"], wait_s};
+    Post::Heard heard;
+    for (const Json& one : read["statements"])
+      if (heard = post.tell(one, Clock::now()); !heard.status) break;
+    if (!heard.answered) {
+      ++out.left;
+      continue;
+    }
+    if (heard.status)
+      ++out.launches;
+    else
+      out.notices.push_back(heard.status.error().text + "; it has ended the session by itself");
+    fs::remove(file, nobody_asks);
+  }
+  return out;
+}
+
+std::size_t count_waiting(const fs::path& folder) { return waiting_in(folder).size(); }
 
 }  // namespace burr::lrs

@@ -137,20 +137,22 @@ Status check_reason(std::string_view reason) {
 
 Result<std::vector<Product>> to_mark(Store& store, const std::string& rater,
                                      const std::string& rubric_hash, std::uint64_t seed) {
+  // of each session the newest score, found by the index of its scores: 5000 sessions have 10 000 of them
   const auto found = store.database().rows(
-      "SELECT session.id, case_def.name, score.rubric_hash, session.recording_uri, "
-      "session.recording_hash FROM session JOIN score ON score.session_id = session.id "
-      "LEFT JOIN case_def ON case_def.hash = session.case_hash "
-      "WHERE session.finished = 1 AND session.learner_id <> $1 "
-      "AND (score.rubric_hash = $2 OR $3 = 1) AND NOT EXISTS (SELECT 1 FROM rater_mark "
-      "WHERE rater_mark.session_id = session.id AND rater_mark.rater_id = $4 "
-      "AND rater_mark.blinded = 1) ORDER BY session.id, score.made_ms DESC, score.id",
+      "SELECT queue.id, case_def.name, queue.rubric_hash, queue.recording_uri, "
+      "queue.recording_hash FROM (SELECT session.id, session.case_hash, session.recording_uri, "
+      "session.recording_hash, (SELECT score.rubric_hash FROM score "
+      "WHERE score.session_id = session.id AND (score.rubric_hash = $2 OR $3 = 1) "
+      "ORDER BY score.made_ms DESC, score.id LIMIT 1) AS rubric_hash FROM session "
+      "WHERE session.finished = 1 AND session.learner_id <> $1 AND NOT EXISTS (SELECT 1 "
+      "FROM rater_mark WHERE rater_mark.session_id = session.id AND rater_mark.rater_id = $4 "
+      "AND rater_mark.blinded = 1)) AS queue LEFT JOIN case_def ON case_def.hash = queue.case_hash "
+      "WHERE queue.rubric_hash IS NOT NULL ORDER BY queue.id",
       {rater, rubric_hash, std::int64_t{rubric_hash.empty()}, rater});
   if (!found) return found.error();
   std::vector<Product> all;
-  for (const Row& row : *found)  // of each session the newest score
-    if (all.empty() || all.back().session != text(row[0]))
-      all.push_back({text(row[0]), text(row[1]), text(row[2]), text(row[3]), text(row[4])});
+  for (const Row& row : *found)
+    all.push_back({text(row[0]), text(row[1]), text(row[2]), text(row[3]), text(row[4])});
   people::RandomStream random(seed);
   for (std::size_t n = all.size(); n > 1; --n)
     std::swap(all[n - 1], all[static_cast<std::size_t>(random.below(static_cast<int>(n)))]);

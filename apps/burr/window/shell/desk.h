@@ -25,7 +25,7 @@
 
 namespace burr::app {
 
-enum class Page { none, start, loading, import, milling, replay, self_marks, review };
+enum class Page { none, start, loading, import, milling, replay, self_marks, review, rate };
 
 class Desk {
  public:

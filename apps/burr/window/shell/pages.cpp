@@ -14,6 +14,7 @@
 #include "window/import/import_page.h"
 #include "window/import/notice_words.h"
 #include "window/mill/window.h"
+#include "window/rate/rate_page.h"
 #include "window/replay/playback.h"
 #include "window/review/enter_session.h"
 #include "window/review/review.h"
@@ -237,13 +238,20 @@ Result<Closed> look_at(Desk& desk, const StartPage::Choice& choice, const PagesO
 Status run_pages(Desk& desk, const PagesOptions& options) {
   StartPage start(desk, options.led.hand, options.led.identity);
   std::string trouble, told;  // told: of a session that was not kept
+  RateState rating;           // of whoever marks products, while burr runs
   for (;;) {
     auto choice = start.ask(trouble, options.seconds);
     if (!choice) return choice.error();
     trouble.clear();
     if (choice->quit) return leave_screenshot(desk, options.screenshot);
     Result<Closed> left = Closed::page;
-    if (choice->marks_of || (choice->open && is_recording(choice->open->volume.source))) {
+    if (choice->rate) {
+      left = rate(desk, rating, {.seconds = options.seconds, .screenshot = options.screenshot});
+      if (!left) {
+        trouble = left.error().text;
+        left = Closed::page;
+      }
+    } else if (choice->marks_of || (choice->open && is_recording(choice->open->volume.source))) {
       left = look_at(desk, *choice, options, trouble);
     } else {
       if (choice->go_on) choice->open = choice->go_on->options;

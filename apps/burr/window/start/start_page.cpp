@@ -16,6 +16,7 @@
 #include "commands/work.h"
 #include "window/mill/hud.h"
 #include "window/mill/mill_keys.h"
+#include "window/rate/can_rate.h"
 #include "window/shell/help.h"
 #include "window/shell/settings_page.h"
 #include "window/shell/typed_path.h"
@@ -73,6 +74,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
   choice_.reset();
   kept_ = kept_sessions(desk_.places().state);
   recent_ = recent(desk_.places().state);
+  rates_ = can_rate(desk_);
   help_ = settings_ = false;
   desk_.page = Page::start;
   desk_.renderer().title("burr");
@@ -201,6 +203,12 @@ void StartPage::draw() {
   ImGui::SameLine();
   if (ImGui::Button(fmt::format("{}  [Esc]", word(Word::start_quit)).c_str()))
     choice_ = Choice{.open = {}, .go_on = {}, .marks_of = {}, .quit = true};
+  if (rates_) {  // last, so that nothing moves where there is no store
+    ImGui::SameLine(0, 24 * u);
+    if (ImGui::Button(word(Word::rate_title)))
+      choice_ = Choice{.open = {}, .go_on = {}, .marks_of = {}, .quit = false, .rate = true};
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(Word::rate_how));
+  }
   ImGui::End();
 }
 

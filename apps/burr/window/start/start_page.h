@@ -31,6 +31,7 @@ class StartPage {
     std::optional<KeptSession> go_on;
     std::optional<KeptSession> marks_of = {};
     bool quit = false;
+    bool rate = false;  // products of others
   };
   // Returns when the user has chosen, the program is interrupted, or `seconds` have passed (0: no
   // limit). trouble: a sentence about an earlier error; "" for none.
@@ -67,6 +68,7 @@ class StartPage {
   std::string typed_;
   std::optional<Choice> choice_;
   bool help_ = false, help_pads_ = false, settings_ = false, settings_pads_ = false;
+  bool rates_ = false;  // there is a store whose products can be marked
 };
 
 // "Temporal bone", in the user's language; an unknown case keeps its name.

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "burr/base/printable.h"
@@ -15,21 +17,18 @@ namespace burr::school::study {
 namespace {
 
 constexpr int kDraws = 2000;
+constexpr int kMostKept = 4096;   // products of which the samples are kept: 32 MB
 constexpr double kPoints = 0.05;  // how much less the machine may agree
 constexpr const char* kMachine = "machine";
+
+// Whole numbers, so that they can be added by four in the loop over all samples.
+using Four = std::array<std::uint32_t, 4>;  // both, first, second, neither
 
 struct Counts {
   double both = 0, first = 0, second = 0, neither = 0;
 
-  void add(const Pair& pair) {
-    (pair.first ? (pair.second ? both : first) : (pair.second ? second : neither)) += 1;
-  }
-  void add(const Counts& other) {
-    both += other.both;
-    first += other.first;
-    second += other.second;
-    neither += other.neither;
-  }
+  Counts() = default;
+  explicit Counts(const Four& of) : both(of[0]), first(of[1]), second(of[2]), neither(of[3]) {}
   [[nodiscard]] double all() const { return both + first + second + neither; }
   [[nodiscard]] double agreement() const { return (both + neither) / all(); }
   [[nodiscard]] std::optional<double> kappa() const {
@@ -45,7 +44,79 @@ struct Counts {
   }
 };
 
+// Which products each sample takes. It depends on their number alone, so it is drawn once for all items and pairs of
+// raters with so many products: with 16 of each that was nearly the whole time.
+class Samples {
+ public:
+  explicit Samples(std::uint64_t seed) : seed_(seed) {}
+
+  // The numbers of the products of sample n; valid until the next call.
+  [[nodiscard]] std::span<const std::uint32_t> of(int products, int n) {
+    const auto count = static_cast<std::size_t>(products);
+    if (products > kMostKept) return drawn(products, n, now_);
+    std::vector<std::uint32_t>& all = kept_[products];
+    if (all.empty())
+      for (int sample = 0; sample < kDraws; ++sample) {
+        const auto one = drawn(products, sample, now_);
+        all.insert(all.end(), one.begin(), one.end());
+      }
+    return std::span(all).subspan(count * static_cast<std::size_t>(n), count);
+  }
+
+ private:
+  std::span<const std::uint32_t> drawn(int products, int n,
+                                       std::vector<std::uint32_t>& into) const {
+    people::RandomStream random(seed_, static_cast<std::uint64_t>(n));
+    into.clear();
+    for (int k = 0; k < products; ++k)
+      into.push_back(static_cast<std::uint32_t>(random.below(products)));
+    return into;
+  }
+
+  std::uint64_t seed_;
+  std::map<int, std::vector<std::uint32_t>> kept_;
+  std::vector<std::uint32_t> now_;
+};
+
 double square(double x) { return x * x; }
+
+Interval ends_of(std::vector<double>& values) {
+  if (values.empty()) return {std::nan(""), std::nan("")};
+  std::sort(values.begin(), values.end());
+  return {quantile(values, 0.025), quantile(values, 0.975)};
+}
+
+Agreement agreement_of(const std::vector<std::vector<Pair>>& products, Samples& samples) {
+  std::vector<Four> of_products;
+  Four all = {};
+  for (const std::vector<Pair>& pairs : products) {
+    Four& one = of_products.emplace_back();
+    for (const Pair& pair : pairs)
+      ++one[pair.first ? (pair.second ? 0 : 1) : (pair.second ? 2 : 3)];
+    for (std::size_t n = 0; n < 4; ++n) all[n] += one[n];
+  }
+  const Counts counts(all);
+  Agreement out;
+  out.products = static_cast<int>(products.size());
+  out.marks = static_cast<int>(counts.all());
+  out.agreement = counts.agreement();
+  out.kappa = counts.kappa();
+  out.ac1 = counts.ac1();
+  out.prevalence_index = std::abs(counts.both - counts.neither) / counts.all();
+  // both figures of the same samples
+  std::vector<double> shares, kappas;
+  for (int sample = 0; sample < kDraws; ++sample) {
+    Four sum = {};
+    for (const std::uint32_t n : samples.of(out.products, sample))
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += of_products[n][k];
+    const Counts again(sum);
+    shares.push_back(again.agreement());
+    if (const auto kappa = again.kappa()) kappas.push_back(*kappa);
+  }
+  out.kappa_95 = ends_of(kappas);
+  out.agreement_95 = ends_of(shares);
+  return out;
+}
 
 std::string& once(std::vector<std::string>& list, const std::string& text) {
   const auto found = std::find(list.begin(), list.end(), text);
@@ -121,32 +192,8 @@ std::vector<std::string> items_for_a_person(const RaterStudy& study) {
 }  // namespace
 
 Agreement agreement(const std::vector<std::vector<Pair>>& products, std::uint64_t seed) {
-  std::vector<Counts> of_products;
-  Counts counts;
-  for (const std::vector<Pair>& pairs : products) {
-    Counts& one = of_products.emplace_back();
-    for (const Pair& pair : pairs) one.add(pair);
-    counts.add(one);
-  }
-  Agreement out;
-  out.products = static_cast<int>(products.size());
-  out.marks = static_cast<int>(counts.all());
-  out.agreement = counts.agreement();
-  out.kappa = counts.kappa();
-  out.ac1 = counts.ac1();
-  out.prevalence_index = std::abs(counts.both - counts.neither) / counts.all();
-  // both figures of the same samples
-  std::vector<double> shares;
-  out.kappa_95 = resampled(kDraws, seed, [&](people::RandomStream& random) {
-    Counts again;
-    for (std::size_t n = 0; n < of_products.size(); ++n)
-      again.add(of_products[static_cast<std::size_t>(random.below(out.products))]);
-    shares.push_back(again.agreement());
-    return again.kappa();
-  });
-  std::sort(shares.begin(), shares.end());
-  out.agreement_95 = {quantile(shares, 0.025), quantile(shares, 0.975)};
-  return out;
+  Samples samples(seed);
+  return agreement_of(products, samples);
 }
 
 double icc_a1(const std::vector<std::vector<double>>& totals) {
@@ -208,13 +255,14 @@ Result<RaterStudy> study_raters(const std::vector<Rating>& ratings, std::uint64_
         shared, kFewestProducts));
   std::vector<std::string> items = out.items;
   items.emplace_back();
+  Samples samples(seed);
   for (const std::string& item : items)
     for (std::size_t a = 0; a < out.raters.size(); ++a)
       for (std::size_t b = a + 1; b < out.raters.size(); ++b) {
         const std::vector<std::vector<Pair>> pairs =
             pairs_of(marks, out.raters[a], out.raters[b], item);
         if (static_cast<int>(pairs.size()) >= kFewestProducts)
-          out.pairs.push_back({item, out.raters[a], out.raters[b], agreement(pairs, seed)});
+          out.pairs.push_back({item, out.raters[a], out.raters[b], agreement_of(pairs, samples)});
       }
   const std::vector<std::string> raters = settled(marks, out.raters);
   const std::vector<std::vector<double>> totals = totals_of(marks, out, raters);

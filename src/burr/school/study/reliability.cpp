@@ -31,6 +31,80 @@ void estimate(Component& of, double raw) {
 
 double square(double x) { return x * x; }
 
+// What does not change from sample to sample: the means of each person.
+struct Means {
+  std::vector<double> of_person;
+  std::vector<std::vector<double>> of_both;  // (person, bone)
+  std::vector<std::vector<double>> shared;   // each mark over the number of persons
+  int persons = 0;
+
+  explicit Means(const Balanced& marks) : persons(static_cast<int>(marks.values.size())) {
+    const auto no = static_cast<std::size_t>(marks.occasions);
+    for (const std::vector<double>& row : marks.values) {
+      of_person.push_back(mean(row));
+      std::vector<double>& both = of_both.emplace_back(static_cast<std::size_t>(marks.bones));
+      std::vector<double>& share = shared.emplace_back();
+      for (std::size_t n = 0; n < row.size(); ++n) {
+        share.push_back(row[n] / persons);
+        both[n / no] += row[n] / marks.occasions;
+      }
+    }
+  }
+};
+
+// which: the numbers of the persons, each as often as it counts.
+Reliability reliability_of(const Balanced& marks, const Means& means,
+                           const std::vector<std::size_t>& which) {
+  const int np = means.persons, nb = marks.bones, no = marks.occasions;
+  const auto occasions = static_cast<std::size_t>(no);
+  Reliability out;
+  out.persons = np;
+  out.bones = nb;
+  out.occasions = no;
+  std::vector<double> of_occasion(static_cast<std::size_t>(nb * no)),
+      of_bone(static_cast<std::size_t>(nb));
+  double all = 0;
+  for (const std::size_t q : which) {
+    all += means.of_person[q];
+    for (std::size_t n = 0; n < of_occasion.size(); ++n) of_occasion[n] += means.shared[q][n];
+  }
+  all /= np;
+  for (std::size_t n = 0; n < of_occasion.size(); ++n)
+    of_bone[n / occasions] += of_occasion[n] / no;
+  double p = 0, b = 0, o = 0, pb = 0, rest = 0;
+  for (const double x : of_bone) b += np * no * square(x - all);
+  for (std::size_t n = 0; n < of_occasion.size(); ++n)
+    o += np * square(of_occasion[n] - of_bone[n / occasions]);
+  for (const std::size_t q : which) {
+    const std::vector<double>& both = means.of_both[q];
+    p += nb * no * square(means.of_person[q] - all);
+    for (std::size_t k = 0; k < of_bone.size(); ++k)
+      pb += no * square(both[k] - means.of_person[q] - of_bone[k] + all);
+    for (std::size_t n = 0; n < of_occasion.size(); ++n) {
+      const std::size_t k = n / occasions;
+      rest += square(marks.values[q][n] - both[k] - of_occasion[n] + of_bone[k]);
+    }
+  }
+  out.person = component(p, np - 1);
+  out.bone = component(b, nb - 1);
+  out.occasion = component(o, nb * (no - 1));
+  out.person_bone = component(pb, (np - 1) * (nb - 1));
+  out.residual = component(rest, (np - 1) * nb * (no - 1));
+  const double ms_p = out.person.mean_square, ms_b = out.bone.mean_square,
+               ms_o = out.occasion.mean_square, ms_pb = out.person_bone.mean_square,
+               ms_r = out.residual.mean_square;
+  estimate(out.residual, ms_r);
+  estimate(out.occasion, (ms_o - ms_r) / np);
+  if (nb > 1) {
+    estimate(out.person_bone, (ms_pb - ms_r) / no);
+    estimate(out.bone, (ms_b - ms_o - ms_pb + ms_r) / (np * no));
+    estimate(out.person, (ms_p - ms_pb) / (nb * no));
+  } else {
+    estimate(out.person, (ms_p - ms_r) / no);
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<Balanced> balance(const std::vector<Mark>& marks, int occasions, bool with_bones) {
@@ -71,56 +145,9 @@ Result<Balanced> balance(const std::vector<Mark>& marks, int occasions, bool wit
 }
 
 Reliability reliability(const Balanced& marks) {
-  const int np = static_cast<int>(marks.values.size()), nb = marks.bones, no = marks.occasions;
-  Reliability out;
-  out.persons = np;
-  out.bones = nb;
-  out.occasions = no;
-  std::vector<double> of_person, of_occasion(static_cast<std::size_t>(nb * no)),
-      of_bone(static_cast<std::size_t>(nb));
-  std::vector<std::vector<double>> of_both;
-  for (const std::vector<double>& row : marks.values) {
-    of_person.push_back(mean(row));
-    std::vector<double>& both = of_both.emplace_back(static_cast<std::size_t>(nb));
-    for (std::size_t n = 0; n < row.size(); ++n) {
-      of_occasion[n] += row[n] / np;
-      both[n / static_cast<std::size_t>(no)] += row[n] / no;
-    }
-  }
-  for (std::size_t n = 0; n < of_occasion.size(); ++n)
-    of_bone[n / static_cast<std::size_t>(no)] += of_occasion[n] / no;
-  const double all = mean(of_person);
-  double p = 0, b = 0, o = 0, pb = 0, rest = 0;
-  for (const double x : of_bone) b += np * no * square(x - all);
-  for (std::size_t n = 0; n < of_occasion.size(); ++n)
-    o += np * square(of_occasion[n] - of_bone[n / static_cast<std::size_t>(no)]);
-  for (std::size_t q = 0; q < marks.values.size(); ++q) {
-    p += nb * no * square(of_person[q] - all);
-    for (std::size_t k = 0; k < of_bone.size(); ++k)
-      pb += no * square(of_both[q][k] - of_person[q] - of_bone[k] + all);
-    for (std::size_t n = 0; n < of_occasion.size(); ++n) {
-      const std::size_t k = n / static_cast<std::size_t>(no);
-      rest += square(marks.values[q][n] - of_both[q][k] - of_occasion[n] + of_bone[k]);
-    }
-  }
-  out.person = component(p, np - 1);
-  out.bone = component(b, nb - 1);
-  out.occasion = component(o, nb * (no - 1));
-  out.person_bone = component(pb, (np - 1) * (nb - 1));
-  out.residual = component(rest, (np - 1) * nb * (no - 1));
-  const double ms_p = out.person.mean_square, ms_b = out.bone.mean_square,
-               ms_o = out.occasion.mean_square, ms_pb = out.person_bone.mean_square,
-               ms_r = out.residual.mean_square;
-  estimate(out.residual, ms_r);
-  estimate(out.occasion, (ms_o - ms_r) / np);
-  if (nb > 1) {
-    estimate(out.person_bone, (ms_pb - ms_r) / no);
-    estimate(out.bone, (ms_b - ms_o - ms_pb + ms_r) / (np * no));
-    estimate(out.person, (ms_p - ms_pb) / (nb * no));
-  } else {
-    estimate(out.person, (ms_p - ms_r) / no);
-  }
-  return out;
+  std::vector<std::size_t> everybody(marks.values.size());
+  std::iota(everybody.begin(), everybody.end(), std::size_t{0});
+  return reliability_of(marks, Means(marks), everybody);
 }
 
 double Reliability::g(int of_occasions, int of_bones) const {
@@ -145,12 +172,11 @@ std::optional<int> Reliability::enough(double aim, int of_bones) const {
 }
 
 Interval interval_of_g(const Balanced& marks, int of_occasions, int draws, std::uint64_t seed) {
-  const int count = static_cast<int>(marks.values.size());
+  const Means means(marks);
+  std::vector<std::size_t> which(marks.values.size());
   return resampled(draws, seed, [&](people::RandomStream& random) -> std::optional<double> {
-    Balanced drawn = marks;
-    for (std::vector<double>& row : drawn.values)
-      row = marks.values[static_cast<std::size_t>(random.below(count))];
-    return reliability(drawn).g(of_occasions, marks.bones);
+    for (std::size_t& one : which) one = static_cast<std::size_t>(random.below(means.persons));
+    return reliability_of(marks, means, which).g(of_occasions, marks.bones);
   });
 }
 
