@@ -2,7 +2,8 @@
 #
 #     cmake --preset web && cmake --build --preset web        -> build/web/site, a folder for any static host
 #
-# One WebAssembly module, burr_page, is loaded twice: in the page, where it draws, and in a worker, where it ticks.
+# One WebAssembly module, burr_page, is loaded twice: in the page, where it draws, and in a worker, where it ticks. What is not needed for
+# the first cut is in modules of its own.
 
 # header-only libraries of this machine, alone: beside them in /usr/include lie the headers of another C library
 set(headers ${CMAKE_BINARY_DIR}/web/headers)
@@ -23,12 +24,15 @@ set(phantom build shapes sculpt temporal_bone)
 list(TRANSFORM phantom REPLACE "(.+)" "${src}/phantom/\\1.cpp")
 set(hands ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/mouse_aim.cpp ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/mouse_hand.cpp
   ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/grip.cpp)
-set(record pen mcap/mcap_writer schema session_info view course grid_json tool_json identity private_text bone_blob
-  player player_notes assumed_tool mcap/mcap_reader)
-list(TRANSFORM record REPLACE "(.+)" "${src}/record/\\1.cpp")
+set(record pen mcap/mcap_writer schema session_info view course grid_json tool_json identity private_text bone_blob)
+set(reading player player_notes assumed_tool mcap/mcap_reader)
+foreach(list record reading)
+  list(TRANSFORM ${list} REPLACE "(.+)" "${src}/record/\\1.cpp")
+endforeach()
 list(APPEND record ${src}/sim/session_words.cpp ${src}/scenario/recipe.cpp ${src}/scenario/case_text.cpp
   ${src}/workshop/spared.cpp ${src}/base/printable.cpp)
 file(GLOB web CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/*.cpp)
+list(FILTER web EXCLUDE REGEX "/whole_chunks_web\\.cpp$")
 
 # burr_web_parts(NAME SOURCE...): sources of the rooms and of the program, compiled as they are
 function(burr_web_parts name)
@@ -40,8 +44,10 @@ function(burr_web_parts name)
   target_link_libraries(${name} PUBLIC burr_core burr_options)
 endfunction()
 burr_web_parts(burr_record_parts ${record})
+burr_web_parts(burr_reading_parts ${reading})
 burr_web_parts(burr_phantom_parts ${phantom})  # who opens the page waits for the bone: made for speed, not for size
 target_compile_options(burr_record_parts PRIVATE -Oz)
+target_compile_options(burr_reading_parts PRIVATE -Os)
 # What no session of the page runs: tools that are no balls, two hands, other methods of touch, pieces, the mirror.
 file(GLOB idle ${src}/haptics/six/*.cpp ${src}/haptics/baselines/*.cpp ${src}/edit/piece_*.cpp)
 list(FILTER idle EXCLUDE REGEX "_(scalar|avx2|avx512)\\.cpp$")
@@ -61,6 +67,18 @@ set_target_properties(burr_page PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINA
 target_link_options(burr_page PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sFORCE_FILESYSTEM=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2GB
   -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2
+  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS)
+
+# The module of the page "replay", burr_replay: reads recordings. Who mills does not wait for it.
+set(web_dir ${PROJECT_SOURCE_DIR}/web)
+add_executable(burr_replay ${web_dir}/replay/replay_api.cpp ${web_dir}/bone_api.cpp ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp
+  ${web_dir}/unzstd.cpp ${web_dir}/whole_chunks_web.cpp ${web_dir}/no_cases_web.cpp ${web_dir}/coarse_mesh_web.cpp
+  ${src}/render/soft_scene.cpp ${src}/render/skin_mesh.cpp)
+target_include_directories(burr_replay PRIVATE ${web_dir})
+target_link_libraries(burr_replay PRIVATE burr_record_parts burr_reading_parts burr_phantom_parts)
+set_target_properties(burr_replay PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)
+target_link_options(burr_replay PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sFORCE_FILESYSTEM=1
+  -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2GB
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
 # The second module, burr_score: the steps of the case, its score and the report. It is loaded when the first cut is possible,
@@ -86,17 +104,17 @@ list(REMOVE_ITEM bones ${phantom})
 burr_web_parts(burr_score_parts ${score} ${bones} ${src}/workshop/label_check.cpp ${src}/workshop/allowed.cpp
   ${src}/workshop/piece_plan.cpp ${src}/sim/move_pieces.cpp ${src}/base/text_file.cpp ${src}/base/markup.cpp
   ${src}/base/base64.cpp ${app}/commands/score_words.cpp ${app}/commands/piece_words.cpp ${app}/window/mill/steps.cpp
+  ${app}/window/mill/step_rings.cpp ${app}/window/mill/technique.cpp ${src}/workshop/spared_distance.cpp
   ${app}/window/mill/suits.cpp ${app}/window/shell/words.cpp ${app}/window/shell/anatomy.cpp
   ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/words/word_texts.cpp
   ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 target_compile_options(burr_score_parts PRIVATE -Os)
 target_include_directories(burr_score_parts PRIVATE ${CMAKE_BINARY_DIR}/words ${PROJECT_SOURCE_DIR}/third_party)
 file(GLOB score_api CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/score/*.cpp)
-set(web_dir ${PROJECT_SOURCE_DIR}/web)
 add_executable(burr_score ${score_api} ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp ${web_dir}/unzstd.cpp
   ${web_dir}/whole_chunks_web.cpp)
 target_include_directories(burr_score PRIVATE ${web_dir} ${CMAKE_BINARY_DIR}/words ${PROJECT_SOURCE_DIR}/third_party)
-target_link_libraries(burr_score PRIVATE burr_score_parts burr_record_parts burr_phantom_parts)
+target_link_libraries(burr_score PRIVATE burr_score_parts burr_record_parts burr_reading_parts burr_phantom_parts)
 set_target_properties(burr_score PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)
 target_link_options(burr_score PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=worker -sFORCE_FILESYSTEM=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=4GB
@@ -109,6 +127,30 @@ target_link_libraries(burr_sound PRIVATE burr_core burr_options)
 set_target_properties(burr_sound PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .wasm)
 target_link_options(burr_sound PRIVATE --no-entry -sSTANDALONE_WASM=1 -sINITIAL_MEMORY=8MB)
 
+# The fourth module, burr_import, loaded only when somebody opens a scan: burr's readers without what needs libraries that Debian does
+# not have for WebAssembly (web/import/gaps), and the making of bone.
+file(GLOB readers CONFIGURE_DEPENDS ${src}/io/read/*.cpp ${src}/importing/*.cpp)
+list(FILTER readers EXCLUDE REGEX "/(png|read_adf|yaml|read_mesh|read_scan)\\.cpp$|_avx(2|512)\\.cpp$")
+file(GLOB import_api CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/import/*.cpp)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/materials/materials.toml)
+file(READ ${PROJECT_SOURCE_DIR}/materials/materials.toml BURR_MATERIALS_TEXT)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_materials.cpp.in ${CMAKE_BINARY_DIR}/built_in_materials.cpp @ONLY)
+add_executable(burr_import ${import_api} ${readers} ${src}/io/voxels.cpp ${src}/io/value_groups.cpp ${src}/base/printable.cpp
+  ${src}/base/text_file.cpp ${src}/scenario/recipe.cpp ${src}/record/bone_blob.cpp ${src}/record/grid_json.cpp
+  ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
+  ${PROJECT_SOURCE_DIR}/web/crc32_web.cpp ${PROJECT_SOURCE_DIR}/web/packed_web.cpp ${PROJECT_SOURCE_DIR}/web/unzstd.cpp)
+target_include_directories(burr_import PRIVATE ${PROJECT_SOURCE_DIR}/web ${PROJECT_SOURCE_DIR}/web/import
+  ${PROJECT_SOURCE_DIR}/web/import/gaps ${PROJECT_SOURCE_DIR}/web/gaps ${PROJECT_SOURCE_DIR}/third_party)
+target_include_directories(burr_import SYSTEM PRIVATE ${headers})
+target_compile_definitions(burr_import PRIVATE FMT_HEADER_ONLY)
+target_compile_options(burr_import PRIVATE "SHELL:-include ${PROJECT_SOURCE_DIR}/web/gaps/std_gaps.h"
+  "SHELL:-include ${PROJECT_SOURCE_DIR}/web/import/gaps/import_gaps.h")
+target_link_libraries(burr_import PRIVATE burr_core burr_options)
+set_target_properties(burr_import PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)
+target_link_options(burr_import PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=worker -sFORCE_FILESYSTEM=1
+  -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2GB
+  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
+
 # the folder for a host: the module, the pages, the words
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/pages/*)
 file(GLOB word_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/words/*.toml ${PROJECT_SOURCE_DIR}/web/words/*.toml)
@@ -118,9 +160,10 @@ add_custom_command(OUTPUT ${site}/words.json
   COMMAND ${CMAKE_COMMAND} -E copy_directory ${PROJECT_SOURCE_DIR}/web/pages ${site}
   COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_BINARY_DIR}/web/burr_page.mjs ${CMAKE_BINARY_DIR}/web/burr_page.wasm
     ${CMAKE_BINARY_DIR}/web/burr_score.mjs ${CMAKE_BINARY_DIR}/web/burr_score.wasm
-    ${CMAKE_BINARY_DIR}/web/burr_sound.wasm ${site}
+    ${CMAKE_BINARY_DIR}/web/burr_sound.wasm ${CMAKE_BINARY_DIR}/web/burr_replay.mjs ${CMAKE_BINARY_DIR}/web/burr_replay.wasm
+    ${CMAKE_BINARY_DIR}/web/burr_import.mjs ${CMAKE_BINARY_DIR}/web/burr_import.wasm ${site}
   COMMAND Python3::Interpreter ${web_dir}/case.py ${PROJECT_SOURCE_DIR}/cases/temporal_bone.toml
     ${PROJECT_SOURCE_DIR}/rubrics/temporal_bone.toml ${site}/case.json
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/web/words.py ${PROJECT_SOURCE_DIR} ${site}/words.json
-  DEPENDS burr_page burr_score burr_sound ${pages} ${word_files} ${PROJECT_SOURCE_DIR}/web/words.py ${web_dir}/case.py COMMENT "The pages: ${site}" VERBATIM)
+  DEPENDS burr_page burr_score burr_sound burr_import burr_replay ${pages} ${word_files} ${PROJECT_SOURCE_DIR}/web/words.py ${web_dir}/case.py COMMENT "The pages: ${site}" VERBATIM)
 add_custom_target(site ALL DEPENDS ${site}/words.json)

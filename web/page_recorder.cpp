@@ -21,10 +21,12 @@ Result<std::unique_ptr<PageRecorder>> PageRecorder::begin(const volume::Bone& bo
   sim::describe(session, device, info);
   info.words["motion"] = "mouse";
   info.identity.emplace();
-  info.work_case = task.work_case;
-  info.work_case->text_hash = scenario::text_hash(task.work_case.text);
+  if (!task.work_case.name.empty()) {
+    info.work_case = task.work_case;
+    info.work_case->text_hash = scenario::text_hash(task.work_case.text);
+    info.identity->case_hash = info.work_case->text_hash;
+  }
   info.identity->mode = task.mode;
-  info.identity->case_hash = info.work_case->text_hash;
   info.identity->rubric_hash = task.rubric_hash;
   info.identity->labels_hash = record::labels_hash(bone);
   workshop::write_spared(workshop::to_spare(bone.tissues(), task.work_case.spare), info);
@@ -34,9 +36,11 @@ Result<std::unique_ptr<PageRecorder>> PageRecorder::begin(const volume::Bone& bo
   info.volume.grid = bone.grid();
   info.volume.tissues = bone.tissues();
   info.volume.has_intensity = bone.has_intensity();
-  info.volume.format = "formula";
-  info.volume.recipe.source = kPhantom;
-  info.volume.recipe.voxel_mm = voxel_mm;
+  if (voxel_mm > 0) {  // of a scan nothing goes into the file but the bone itself
+    info.volume.format = "formula";
+    info.volume.recipe.source = kPhantom;
+    info.volume.recipe.voxel_mm = voxel_mm;
+  }
   info.volume.recipe.reserve_bricks = bone.free_slots();
   info = record::Pen::completed(info, settings.rate_hz, true);
   if (Status good = record::check(info); !good.ok()) return good.error();

@@ -19,7 +19,7 @@
 
 namespace burr::web {
 
-// What the session is for.
+// What the session is for. A case without a name: there is none.
 struct PageTask {
   record::CaseInfo work_case;  // its hash is not needed
   record::Mode mode = record::Mode::free;
@@ -31,7 +31,7 @@ class PageRecorder {
   static constexpr const char* kFile = "/burr.mcap";  // in the module's own file system
 
   // bone: as it is before the first tick, after the surface was made; it goes into the file.
-  // settings: as the servo has them.
+  // settings: as the servo has them. voxel_mm: of the page's own bone; 0: a bone of the user's.
   [[nodiscard]] static Result<std::unique_ptr<PageRecorder>> begin(
       const volume::Bone& bone, const tick::ServoSettings& settings,
       const device::DeviceSpec& device, double voxel_mm, const PageTask& task);

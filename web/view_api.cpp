@@ -51,8 +51,10 @@ struct View {
   tick::TickRow row;
   double rate = web::kRate;             // of ticks [Hz]
   std::vector<volume::Tissue> tissues;  // of the next bone
-  double voxel = 0;                     // [m]
-  std::vector<double> changed_at;       // of each patch [s]
+  std::vector<std::pair<std::size_t, render::Colour>>
+      unlit;                       // colours of tissues before they were lit
+  double voxel = 0;                // [m]
+  std::vector<double> changed_at;  // of each patch [s]
   std::size_t next_to_thin = 0;
   double now = 0, drawn_at = 0;  // the last picture, and the last in which bone was drawn [s]
   bool thin_shown = false;       // some of it was drawn with fewer triangles
@@ -81,6 +83,7 @@ void show_bone(const volume::TissueTable& tissues, double voxel_mm, double rate)
   const render::Camera camera = v.aim ? v.scene.camera : first_camera();
   const double voxel = 1e-3 * voxel_mm;
   v.scene = {};
+  v.unlit.clear();
   v.voxel = voxel;
   v.changed_at.clear();
   v.next_to_thin = 0;
@@ -263,19 +266,39 @@ EMSCRIPTEN_KEEPALIVE int view_hits(double x, double y) {
              ? 1
              : 0;
 }
-// Where the burr is in the picture: x, y and its radius there [pixel].
-EMSCRIPTEN_KEEPALIVE const double* view_burr() {
+// Where a ball is in the picture: x, y and its radius there [pixel]; a negative radius: behind the eye.
+EMSCRIPTEN_KEEPALIVE const double* view_place(double x, double y, double z, double radius) {
   static double at[3];
   const View& v = view();
   const render::Camera& camera = v.scene.camera;
   const double high = v.renderer->height();
-  const math::Vec3 from = v.row.contact.proxy - camera.eye();
-  const double far = std::max(1e-6, -from.dot(camera.backward()));
+  const math::Vec3 from = math::Vec3(x, y, z) - camera.eye();
+  const double before = -from.dot(camera.backward()), far = std::max(1e-6, before);
   const double pixels = high / (2 * std::tan(0.5 * camera.field_of_view) * far);
   at[0] = 0.5 * v.renderer->width() + pixels * from.dot(camera.right());
   at[1] = 0.5 * high - pixels * from.dot(camera.above());
-  at[2] = pixels * v.row.tool.radius;
+  at[2] = before > 0 ? pixels * radius : -1;
   return at;
+}
+// Of the burr.
+EMSCRIPTEN_KEEPALIVE const double* view_burr() {
+  const tick::TickRow& row = view().row;
+  return view_place(row.contact.proxy.x(), row.contact.proxy.y(), row.contact.proxy.z(),
+                    row.tool.radius);
+}
+// Gives a tissue this colour, until view_unlight().
+EMSCRIPTEN_KEEPALIVE void view_light(int tissue, double red, double green, double blue) {
+  View& v = view();
+  const auto at = static_cast<std::size_t>(tissue);
+  if (at >= v.scene.tissue_colours.size()) return;
+  v.unlit.emplace_back(at, v.scene.tissue_colours[at]);
+  v.scene.tissue_colours[at] = {static_cast<float>(red), static_cast<float>(green),
+                                static_cast<float>(blue)};
+}
+EMSCRIPTEN_KEEPALIVE void view_unlight() {
+  View& v = view();
+  for (const auto& [at, colour] : v.unlit) v.scene.tissue_colours[at] = colour;
+  v.unlit.clear();
 }
 
 EMSCRIPTEN_KEEPALIVE void view_orbit(double azimuth_by, double elevation_by) {

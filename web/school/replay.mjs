@@ -80,7 +80,7 @@ class Scene {
       this.worker = new Worker(new URL("replay/worker.js", location.origin + pages), { type: "module" });
       this.worker.onmessage = ({ data }) => this.hear(data);
       this.worker.onerror = what => this.fail(what.message || "worker");
-      this.worker.postMessage({ kind: "open", compiled: parts.compiled, file, bone, work: 1 });
+      this.worker.postMessage({ kind: "open", file, bone, work: 1 });
       requestAnimationFrame(now => this.draw(now));
     } catch (trouble) {
       this.fail(trouble.message);

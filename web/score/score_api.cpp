@@ -33,6 +33,7 @@
 #include "report/report_page.h"
 #include "report/scored.h"
 #include "report/self_marks.h"
+#include "window/mill/step_rings.h"
 #include "window/mill/steps.h"
 #include "window/mill/suits.h"
 #include "window/shell/anatomy.h"
@@ -127,6 +128,7 @@ ordered_json json_of_steps() {
       steps_offered() ? kOffers[static_cast<std::size_t>(course->allowed.steps)] : "never";
   out["back"] = course->allowed.back;
   out["marks"] = course->allowed.marks;
+  out["target"] = course->allowed.target && !steps.empty();
   out["open"] =
       steps_offered() && course->mode != record::Mode::free ? steps.size() - steps.done_count() : 0;
   if (const scenario::Step* now = steps.now(); now != nullptr) {
@@ -262,6 +264,21 @@ EMSCRIPTEN_KEEPALIVE const char* score_done(int measured) {
 EMSCRIPTEN_KEEPALIVE const char* score_choose(int n) {
   return told(json_of(steps_offered() ? course->steps.choose(static_cast<std::size_t>(n))
                                       : app::Steps::Events{}));
+}
+
+// What the current step is about, to be lit: {step, rings: [{at [m], radius [m], name}], tissues, colour}; null: nothing may be.
+EMSCRIPTEN_KEEPALIVE const char* score_light() {
+  const scenario::Step* now = course->steps.now();
+  if (now == nullptr || !course->allowed.target) return told(nullptr);
+  ordered_json out = {{"step", course->steps.id(*course->steps.current())}};
+  out["rings"] = ordered_json::array();
+  for (const app::Ring& ring : app::rings_of(*now, course->lesson))
+    out["rings"].push_back({{"at", {ring.at.x(), ring.at.y(), ring.at.z()}},
+                            {"radius", ring.radius},
+                            {"name", ring.name.empty() ? "" : app::place_name(ring.name)}});
+  out["tissues"] = app::lit_tissues(*now, course->lesson, course->now->tissues());
+  out["colour"] = app::kLitColour;
+  return told(out);
 }
 
 // Bricks that have changed, one after the other: core_api.cpp's Changed.

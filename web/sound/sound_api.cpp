@@ -8,6 +8,7 @@
 #include <emscripten.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -36,6 +37,8 @@ struct Sound {
   sound::Synth synth;
   workshop::SoundTracker tracker;
   tick::TickRow row;
+  double to_spare = std::numeric_limits<double>::infinity();  // [m]
+  bool injured = false;
   std::vector<float> samples;
 };
 
@@ -54,7 +57,18 @@ EMSCRIPTEN_KEEPALIVE void sound_open(double rate_hz, double ticks_hz) {
 EMSCRIPTEN_KEEPALIVE void sound_loudness(double wanted) { now->synth.loudness(wanted); }
 EMSCRIPTEN_KEEPALIVE void* sound_row() { return &now->row; }
 EMSCRIPTEN_KEEPALIVE int sound_row_size() { return sizeof(tick::TickRow); }
-EMSCRIPTEN_KEEPALIVE void sound_update() { now->synth.update(now->tracker.update(now->row)); }
+// From the burr's surface to what must not be cut, where the warning may sound; infinity: it may not. injured: the burr
+// is in it.
+EMSCRIPTEN_KEEPALIVE void sound_near(double to_spare, int injured) {
+  now->to_spare = to_spare;
+  now->injured = injured != 0;
+}
+EMSCRIPTEN_KEEPALIVE void sound_update() {
+  sound::SoundState state = now->tracker.update(now->row);
+  state.to_spare = now->to_spare;
+  state.injured = now->injured;
+  now->synth.update(state);
+}
 EMSCRIPTEN_KEEPALIVE const float* sound_make(int count) {
   now->samples.resize(static_cast<std::size_t>(std::max(0, count)));
   now->synth.make(now->samples);

@@ -2,7 +2,7 @@
 """The course of a session on the page "mill": steps, own marks, score, report, sound, in Chromium without a screen.
 
     web/tests/course_test.py SITE BURR [PICTURES [PART...]]    SITE: build/web/site; BURR: the program; PICTURES: a folder to keep
-                                                           them; PART: learn, practise, exam, sound; all without it
+                                                           them; PART: learn, advice, practise, exam, sound; all without it
 
 What the page finds is compared with what the program finds in the recording that the page saves. How long things take is
 printed, never judged.
@@ -191,8 +191,83 @@ def elsewhere(page, site, loaded):
     check(not later, f"no request after the page was loaded {later}")
     out = [url for _, url in page.requests if not url.startswith((site.url, "data:", f"blob:{site.url}"))]
     check(not out, f"no request to anywhere else {out}")
-    check(len(page.workers) == 2, "both workers were watched")
+    check(len(page.workers) == 3, "all workers were watched")
     check(not page.troubles, f"no errors on the console {page.troubles}")
+
+
+# Asks the page's watch about a burr of 1 mm at a place, as if it were there, while the true rows wait.
+ASK = """window.ask = (x, y, z) => new Promise((go) => {
+  const listen = ({data}) => {
+    if (data.kind !== 'asked') return;
+    burr.watch.worker.removeEventListener('message', listen);
+    go(data.found);
+  };
+  burr.watch.worker.addEventListener('message', listen);
+  burr.watch.post({kind: 'at', place: [x, y, z, 5e-4]});
+})"""
+# A place in what must not be cut, [m].
+FIND = """(async () => {
+  for (let z = -12e-3; z < 14e-3; z += 2e-3) for (let y = -12e-3; y < 14e-3; y += 2e-3) for (let x = -4e-3; x < 22e-3; x += 2e-3) {
+    const {to_spare} = await ask(x, y, z);
+    if (to_spare !== null && to_spare < -6e-4) return [x, y, z];
+  }
+})()"""
+
+
+def guidance(page):
+    """The target of the step is lit; a burr that is in a structure is lifted, and the page says in which."""
+    spoken = words_of("en")
+    page.run("document.getElementById('picture').focus()")
+    press(page, "a")
+    page.wait("burr.course.lit !== null", WAIT)
+    lit = page.run("burr.course.lit")
+    check(lit["step"] == page.run("burr.course.steps.now.id") and (lit["rings"] or lit["tissues"]),
+          f"key A lights the target: {len(lit['rings'])} rings, tissues {lit['tissues']}")
+    page.wait("burr.refined()", WAIT)
+    shown = page.run("[...document.querySelectorAll('#light circle')].map((one) => [+one.getAttribute('cx'), +one.getAttribute('cy'), +one.getAttribute('r')])")
+    check(len(shown) == len(lit["rings"]) and all(0 < x < 960 and 0 < y < 540 and r >= 6 for x, y, r in shown), f"the rings are in the picture: {shown}")
+    check(page.run("document.getElementById('step_light').textContent") == spoken["steps_unlight"].replace("{}", "A"), "the button puts it out")
+    keep(page, "lit")
+    page.run("document.getElementById('step_light').click()")
+    check(page.run("burr.course.lit === null && document.querySelectorAll('#light circle').length === 0"), "and it is out")
+    page.wait("burr.watch.found", WAIT)
+    check(page.run("!document.getElementById('near').hidden && document.getElementById('near_title').textContent !== ''"),
+          f"the figure: {page.run('document.getElementById(`near`).textContent')}")
+    page.run(ASK)
+    page.run("document.getElementById('picture').dispatchEvent(new PointerEvent('pointerdown', {clientX: 480, clientY: 200, button: 0, buttons: 1, pointerId: 1}))")
+    check(page.run("burr.pressing()"), "the burr is pressed")
+    place = page.run(FIND)
+    found = page.run("burr.watch.found")
+    check(place and found["injured"] and found["stop"].startswith(spoken["injury_stop"].split("{}")[0]) and
+          page.run("document.getElementById('say').textContent") == found["stop"], f"in a structure at {place}: {found['stop']}")
+    check(not page.run("burr.pressing()"), "the burr is lifted")
+    check(page.run("document.getElementById('near').className") == "bad" and "!!" in page.run("document.getElementById('near').textContent"),
+          "the figure is marked")
+    check(page.run(f"ask({place[0]}, {place[1]}, {place[2]})")["stop"] == "", "it is said once")
+    keep(page, "stopped")
+    page.run("document.getElementById('picture').dispatchEvent(new PointerEvent('pointerup', {pointerId: 1, button: 0})); burr.watch.post({kind: 'go_on'})")
+
+
+def advised(page):
+    """Two seconds with a burr that does not suit the step: one sentence."""
+    page.run("document.querySelectorAll('#course li button')[5].click()")
+    suits = page.run("burr.course.steps.now.tool")
+    for _ in range(12):
+        page.run("document.getElementById('smaller').click()")
+    page.run(f"void {POINTER}(8000)")
+    page.wait("document.getElementById('advice').textContent !== ''", WAIT)
+    check(True, f"advice: {page.run('document.getElementById(`advice`).textContent')} (step: {suits})")
+    keep(page, "advice")
+
+
+def advice(browser, site, _downloads):
+    page = browser.open(site.url + "mill/?language=de&mode=learn")
+    page.wait("window.burr && burr.ready && burr.loaded", WAIT)
+    advised(page)
+    check(page.run("document.getElementById('near_title').textContent") in (words_of("de")["nearest_far"],) or
+          page.run("document.getElementById('near_title').textContent").startswith(words_of("de")["nearest"].split("{}")[0]), "the figure's title is German")
+    check(not page.troubles, f"no errors on the console {page.troubles}")
+    page.close()
 
 
 def learn(browser, site, downloads):
@@ -203,6 +278,7 @@ def learn(browser, site, downloads):
     steps(page, "en")
     keep(page, "steps")
     walk(page)
+    guidance(page)
     page.run(POINTER + "(9000)")
     page.wait("burr.figures.removed > 1", WAIT)
     page.run("(() => { const one = document.getElementById('language'); one.value = 'sv'; one.dispatchEvent(new Event('change')); })()")
@@ -243,6 +319,11 @@ def practise(browser, site, _downloads):
     page.run("document.getElementById('show_steps').click()")
     page.wait("!document.getElementById('course').hidden", WAIT)
     measured(page)
+    page.run(ASK)
+    place = page.run(FIND)
+    found = place and page.run(f"ask({place[0]}, {place[1]}, {place[2]})")
+    check(found and found["injured"] and found["stop"] == "" and page.run("document.getElementById('near').hidden"),
+          "practise: a tone, no stop and no distance")
     page.close()
 
 
@@ -254,6 +335,9 @@ def exam(browser, site, downloads):
     check(page.run("document.getElementById('say').textContent") == said["exam_begins"], f"exam: {said['exam_begins']}")
     check(page.run("document.getElementById('course').hidden && document.getElementById('show_steps').hidden && "
                    "['undo', 'redo', 'reset'].every((id) => document.getElementById(id).disabled)"), "no steps and no way back")
+    check(page.run("burr.watch.worker === null && document.getElementById('near').hidden"), "no distance, and nobody watches")
+    press(page, "a")
+    check(page.run("burr.course.lit === null"), "no target")
     page.run(POINTER + "(3000)")
     before = page.run("burr.figures.removed")
     page.run("document.getElementById('picture').focus()")
@@ -277,7 +361,8 @@ def exam(browser, site, downloads):
 # The samples of a recording, made by the page's module from the rows of its ticks, as floats in base64.
 SAMPLES = """(async (recording, ticks) => {
   const {compile, start} = await import('../common/burr.js');
-  const burr = await start(await compile());
+  const {default: make} = await import('../burr_replay.mjs');
+  const burr = await start(await compile('burr_replay.wasm'), make);
   burr.module.FS.writeFile('/burr.mcap', Uint8Array.from(atob(recording), (one) => one.charCodeAt(0)));
   const path = new TextEncoder().encode('/burr.mcap\\0');
   if (burr.with_bytes([path], (at) => burr.core_open(at)) === 0) return burr.text(burr.core_why());
@@ -324,6 +409,13 @@ def sound(browser, site, downloads):
       window.heard = () => { const some = new Float32Array(ear.fftSize); ear.getFloatTimeDomainData(some);
         return Math.sqrt(some.reduce((sum, one) => sum + one * one, 0) / some.length); }; })()""")
     check(page.run("heard()") == 0, "a burr that stands is silent")
+    page.run(ASK)
+    page.run(FIND)
+    page.wait("heard() > 0.005", WAIT)
+    check(True, f"near a structure a tone warns, {page.run('heard()'):.3f} of full scale")
+    page.run("ask(0.2, 0.2, 0.2)")
+    page.wait("heard() === 0", WAIT)
+    page.run("burr.watch.post({kind: 'go_on'})")
     page.run(f"void {POINTER}(20000)")  # it turns while it is pressed
     page.wait("heard() > 0.005", WAIT)
     level = page.run("heard()")
@@ -352,7 +444,7 @@ def sound(browser, site, downloads):
 def main():
     with tempfile.TemporaryDirectory() as downloads, Site(SITE) as site, Chromium(960, 540) as browser:
         browser.keep_downloads(downloads)
-        for part in (learn, practise, exam, sound):
+        for part in (learn, advice, practise, exam, sound):
             if part.__name__ in (sys.argv[4:] or [part.__name__]):
                 part(browser, site, downloads)
     if bad:

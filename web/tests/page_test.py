@@ -17,6 +17,7 @@ import tempfile
 import time
 import tomllib
 
+import scans
 from chromium import Chromium, Site
 from hand import PARK, POINTER
 
@@ -96,6 +97,10 @@ def record(page, downloads):
     """A recording of at least LEAST_TICKS ticks, with undo, which the program replays to the bit."""
     page.run(POINTER + "(4000)")
     page.wait(f"burr.state.ticks >= {LEAST_TICKS}", WAIT)
+    return recording(page, downloads, LEAST_TICKS)
+
+
+def recording(page, downloads, least_ticks=1000):
     page.run("document.getElementById('save').click()")
     file = pathlib.Path(downloads) / "burr.mcap"
     end = time.monotonic() + WAIT
@@ -107,7 +112,7 @@ def record(page, downloads):
     replayed = subprocess.run([BURR, "replay", file, "--check"], capture_output=True, text=True)
     said = (replayed.stderr + replayed.stdout).strip().splitlines()[-1]
     same = re.search(r"the same to the bit: (\d+) ticks", said)
-    check(replayed.returncode == 0 and same is not None and int(same[1]) >= LEAST_TICKS, f"burr replay --check: {said}")
+    check(replayed.returncode == 0 and same is not None and int(same[1]) >= least_ticks, f"burr replay --check: {said}")
     return file
 
 
@@ -236,6 +241,144 @@ def replay(browser, site, recorded):
         page.close()
 
 
+def own_scan(browser, site):
+    """Scans of the user's: each format becomes bone and is milled; what is refused is one sentence, and the page lives on."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        page = browser.open(site.url + "mill/")
+        page.wait("window.burr && burr.ready && burr.loaded", WAIT)
+        browser.keep_downloads(name)
+        loaded = len(page.requests)
+
+        def opened(*files):
+            page.run("document.getElementById('own_scan')?.open && document.getElementById('own_close').click()")
+            page.run("document.getElementById('own').click()")
+            page.wait("document.getElementById('own_scan')?.open", WAIT)
+            page.choose("#own_files", *files)
+            page.wait("burr.own.plan || burr.own.refused", WAIT)
+            return page.run("burr.own.plan")
+
+        def file(name, content):
+            (folder / name).write_bytes(content)
+            return folder / name
+
+        def slices(name, *how):
+            return [file(f"{name}{k}.dcm", one) for k, one in enumerate(scans.dicom(*how))]
+
+        whole = [scans.EDGE] * 3
+        kinds = {"NRRD, gzip": [file("ball.nrrd", scans.nrrd())], "NIfTI": [file("ball.nii.gz", scans.nifti())],
+                 "MetaImage, zlib": [file("ball.mha", scans.meta())], "DICOM": slices("plain", scans.UNCOMPRESSED),
+                 "DICOM, deflated": slices("deflated", scans.DEFLATED), "DICOM, run lengths": slices("runs", scans.RLE)}
+        for kind, files in kinds.items():
+            plan = opened(*files)
+            check(plan and plan["scan"] == whole and abs(plan["voxel_mm"] - scans.SPACING) < 1e-6 and
+                  plan["low"] == -1000 and plan["high"] == 1000,
+                  f"{kind}: {plan and plan['format']}, {plan and plan['scan']} {page.run('burr.own.refused')}")
+        real(page, opened)
+        iso = opened(*kinds["NRRD, gzip"])["iso"]
+        page.run("(() => { const set = (id, value) => { document.getElementById(id).value = value; };"
+                 "set('own_level', 200); set('own_k1', 24); document.querySelector('#own_scan form').dispatchEvent(new Event('change')); })()")
+        page.wait("burr.own.plan.iso === 200", WAIT)
+        check(iso == 300 and page.run("burr.own.plan.size[2]") == 25, "level and region are the user's")
+        page.run("document.querySelector('#own_scan form').requestSubmit()")
+        page.wait("!burr.ready", WAIT)
+        page.wait("burr.ready && burr.state.ticks > 200 && burr.refined()", WAIT)
+        check(page.run("!document.getElementById('own_scan').open"), "bone is made of it, and the dialog closes")
+        page.run(POINTER + "(3000)")
+        removed = page.run("burr.figures.removed")
+        check(1 < removed < scans.MM3, f"the own bone is milled: {removed:.1f} mm3")
+        page.picture(PICTURES and PICTURES / "own.png")
+        check(page.run("document.getElementById('finish').disabled && burr.course.steps === null"), "it has no steps and no score")
+        saved = recording(page, name)
+        check(saved is not None and b"temporal-bone" not in saved.read_bytes(), "its recording names no case")
+
+        damaged = bytearray(scans.nrrd())
+        damaged[-2000] ^= 255
+        refused = {"cut off": ([file("cut.nrrd", scans.nrrd()[:len(scans.nrrd()) // 2])], "cut off"),
+                   "a sum that is wrong": ([file("damaged.nrrd", bytes(damaged))], "damaged"),
+                   "bzip2": ([file("ball_bz.nrrd", scans.nrrd("bzip2"))], "bzip2"),
+                   "JPEG with loss": (slices("lossy", scans.LOSSY), scans.LOSSY),
+                   "JPEG without its pixels": (slices("jpeg", scans.LOSSLESS), "cannot be decompressed"),
+                   "no pixel data": (slices("empty", scans.UNCOMPRESSED, "1.2.3.0", False), "it holds no picture"),
+                   "more than the memory": ([huge(folder)], words_of("en")["scan_memory"]),
+                   "no scan": ([file("text.txt", b"hello")], "text.txt"), "an empty file": ([file("none.nrrd", b"")], "empty")}
+        for kind, (files, part) in refused.items():
+            plan = opened(*files)
+            said = page.run("burr.own.refused") or ""
+            check(plan is None and part in said, f"{kind} is refused: {said}")
+        plan = opened(*slices("plain", scans.UNCOMPRESSED), *slices("other", scans.UNCOMPRESSED, "1.2.3.1"))
+        check(plan and plan["scan"] == whole and "series" in " ".join(plan["notices"]), f"of two series one is read, and it says so: {plan and plan['notices']}")
+        plan = opened(file("grey.nrrd", scans.nrrd("grey")))
+        check(plan and not plan["hounsfield"] and plan["notices"], f"no Hounsfield units: {plan and plan['notices']}")
+        odd(page, opened)
+        page.run("document.getElementById('own_close').click()")
+        pages_bone_again(page)
+        ticks = page.run("burr.state.ticks")
+        page.wait(f"burr.state.ticks > {ticks} + 200", WAIT)
+        check(not page.run("burr.trouble"), "the page lives on")
+        ours = ("common/import.js", "common/import.css", "common/import_worker.js", "burr_import.mjs", "burr_import.wasm")
+        later = [url for _, url in page.requests[loaded:] if not url.startswith("blob:")]
+        elsewhere = [url for url in later if not (url.startswith(site.url) and url.endswith(ours))]
+        sent = [one for one in page.sent if one != "GET"]
+        check(later and not elsewhere and not sent, f"after load only the reader itself is fetched, nothing is sent {elsewhere} {sent}")
+        check(not page.troubles, f"no errors on the console {page.troubles}")
+        page.close()
+
+
+def huge(folder):
+    """A file that is larger than a page may read; it takes no room on the disk."""
+    with (folder / "huge.nrrd").open("wb") as out:
+        out.truncate(1_100_000_000)
+    return folder / "huge.nrrd"
+
+
+REAL = {  # files below shared/data: how many of them in a row; size and least and greatest value, as `burr` on a desktop reads them
+    "JPEG-LS": ("skull_phantom/bone_1mm_jpegls", 40), "JPEG lossless": ("skull_phantom/std_5mm_jpegll", 28),
+    "JPEG 2000": ("skull_phantom/tilt_minus18.5_j2k", 54)}
+
+
+def real(page, opened):
+    """Scans of a scanner, compressed, where they lie beside the checkout."""
+    for kind, (where, count) in REAL.items():
+        folder = ROOT.parent / "shared/data" / where
+        files = sorted((one for one in folder.rglob("*") if one.is_file()), key=lambda one: (len(one.name), one.name))[:count]
+        if not files:
+            continue
+        begun = time.monotonic()
+        plan = opened(*files)
+        check(plan and plan["format"] == "DICOM" and plan["scan"][0] == 512 and plan["hounsfield"] and plan["high"] > 700,
+              f"{kind}: {plan and (plan['scan'], plan['low'], plan['high'], plan['iso'])} in {time.monotonic() - begun:.1f} s "
+              f"{page.run('burr.own.refused')}")
+
+
+def pages_bone_again(page):
+    """Another mode brings back the page's own bone, with its steps."""
+    page.run("(() => { const mode = document.getElementById('mode'); mode.value = 'learn'; mode.dispatchEvent(new Event('change')); })()")
+    page.wait("!burr.ready", WAIT)
+    page.wait("burr.ready && burr.course.steps !== null && burr.state.ticks > 100", WAIT)
+    check(page.run("burr.voxel === 0.5 && !document.getElementById('course').hidden"), "the page's own bone is back, with its steps")
+
+
+def odd(page, opened):
+    """Some of the files that other programs stumbled over, where they lie beside the checkout; BURR_ODD_SCANS=1: one in
+    BURR_ODD_SCANS of them. Each is bone or one sentence."""
+    folder = ROOT.parent / "shared/data/corpus"
+    files = sorted(one for one in folder.rglob("*") if one.is_file() and one.stat().st_size < 20e6)
+    files = files[::int(os.environ.get("BURR_ODD_SCANS", "20"))]
+    if not files:
+        return
+    silent, broken, read = [], [], 0
+    for one in files:
+        plan = opened(one)
+        said = page.run("burr.own.refused") or ""
+        read += plan is not None
+        if plan is None and len(said) < 10:
+            silent.append(one.name)
+        if said in (words_of("en")["scan_broken"], words_of("en")["scan_memory"]):
+            broken.append(one.name)
+    check(not silent, f"{len(files)} odd files: {read} are read, the others refused in a sentence; by the end of the reader: {broken}")
+
+
 def words_of(code):
     return (tomllib.loads((ROOT / f"words/{code}.toml").read_text()) |
             tomllib.loads((ROOT / f"web/words/{code}.toml").read_text()))
@@ -258,7 +401,7 @@ def main():
     only = os.environ.get("BURR_PAGE_TEST")  # one of the functions below, for whoever works on it
     if only:
         with Site(SITE) as site, Chromium(960, 540) as browser:
-            {"replay": lambda *where: replay(*where, None), "languages": languages}[only](browser, site)
+            {"replay": lambda *where: replay(*where, None), "own_scan": own_scan, "languages": languages}[only](browser, site)
         sys.exit("\n".join(bad))
     with tempfile.TemporaryDirectory() as downloads, Site(SITE) as site, Chromium(960, 540) as browser:
         browser.keep_downloads(downloads)
@@ -272,6 +415,7 @@ def main():
         print("ticks:", page.run("JSON.stringify(burr.state)"), "pictures:", page.run("burr.pictures"))
         page.close()
         replay(browser, site, recorded)
+        own_scan(browser, site)
         without_webgl(browser, site)
         languages(browser, site)
         with Site(SITE, {"Content-Security-Policy": policy()}) as strict:

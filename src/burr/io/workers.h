@@ -25,7 +25,8 @@ template <class Work>
     }
   };
   std::thread second;
-  if (count > 1) second = std::thread([&] { take(false); });
+  if (count > 1 && std::thread::hardware_concurrency() > 1)
+    second = std::thread([&] { take(false); });
   take(true);
   if (second.joinable()) second.join();
   return !stop;

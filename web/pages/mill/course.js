@@ -23,7 +23,8 @@ const kSigns = {good: '✓ ', bad: '✗ ', open: '○ ', none: ''};
 const mark_of = ({word: text, tone}) => make('span', {class: tone}, kSigns[tone] + text);
 
 export class Course {
-  // host: tell(message for the worker that ticks), say(text, ms), figures(), picture(), keep(bytes, name, type), changed()
+  // host: tell(message for the worker that ticks), say(text, ms), figures(), picture(), keep(bytes, name, type), changed(),
+  // opened(compiled), step(id), light(what is lit or null)
   constructor(host) {
     this.host = host;
     this.worker = null;
@@ -41,6 +42,7 @@ export class Course {
     this.file = null;        // the recording, when the work is done
     this.page = null;        // of the review: "own", "waits", "found", "exam"
     this.looking = false;
+    this.lit = null;         // what is lit: {step, rings, tissues, colour}
     this.trouble = '';
     clearTimeout(this.timer);
   }
@@ -56,9 +58,16 @@ export class Course {
     }
     this.post({kind: 'open', voxel, mode, language: words.present()});
   }
+  // Of a bone that has no case: no steps, no score. What still comes of the bone before is left.
+  leave(work) {
+    this.work = work;
+    this.mode = 'free';
+    this.host.changed();
+  }
   close() {
     this.clear();
     $('course').hidden = $('review').hidden = true;
+    this.host.light(null);
     $('ask').close();
     this.host.changed();
   }
@@ -80,9 +89,11 @@ export class Course {
     if (data.words) this.texts = data.words;
     if (data.questions) this.questions = data.questions;
     if (data.steps) this.steps = data.steps;
+    if (data.events?.length > 0 && this.lit) this.put_out();  // it was the target of another step
     for (const event of data.events ?? []) this.note(event);
+    if (data.steps) this.host.step(this.steps.now?.id);
     if (data.kind === 'opened') {
-      this.loaded = true;
+      this.host.opened(data.compiled);
       this.shown = this.steps.offer === 'always';
       if (this.mode === 'exam') this.host.say(this.texts.exam_begins, 8000);
       this.rest();
@@ -95,6 +106,8 @@ export class Course {
       this.found = data.marks ?? null;
       this.trouble = data.why ?? '';
       this.page = 'found';
+    } else if (data.kind === 'lit') {
+      this.light(data.light);
     } else if (data.kind === 'dressed' && data.marks) {
       this.found = data.marks;
     } else if (data.kind === 'page') {
@@ -108,10 +121,33 @@ export class Course {
     return (this.texts[key] ?? key).replace(/\{[^}]*\}/g, (gap) => parts.shift() ?? gap);
   }
   note(event) {
-    this.host.tell({kind: 'note', what: {what: '', value: '', ...event}});
+    this.host.tell({kind: 'note', what: {what: '', where: '', value: '', ...event}});
   }
   speak() {
-    if (this.loaded) this.post({kind: 'language', language: words.present()});
+    if (!this.loaded) return;
+    this.post({kind: 'language', language: words.present()});
+    if (this.lit) this.post({kind: 'light'});  // its names
+  }
+
+  // ---- the target of the step, lit
+
+  lights() { return this.steps?.target && this.page === null; }
+  toggle_light() {
+    if (this.lit) return this.put_out();
+    if (this.lights()) this.post({kind: 'light'});
+    else if (this.page === null && this.steps) this.host.say(this.text(this.mode === 'exam' ? 'refused_exam' : 'refused_case'), 3000);
+  }
+  light(light) {
+    if (!light || this.page !== null) return;
+    if (!this.lit) this.note({kind: 'help_shown', what: 'target', where: light.step});
+    this.lit = light;
+    this.host.light(light);
+  }
+  put_out() {
+    this.note({kind: 'help_hidden', what: 'target', where: this.lit.step});
+    this.lit = null;
+    this.host.light(null);
+    this.show();
   }
 
   // ---- the steps
@@ -165,6 +201,7 @@ export class Course {
       make('p', {class: 'small'}, now.count), make('p', {class: 'title'}, now.title), make('p', {}, now.say),
       now.tool && make('p', {class: 'small'}, now.tool), now.spare && make('p', {class: 'warn'}, now.spare),
       button(this.text('steps_done', 'J'), () => this.step_done(), {id: 'step_done'}),
+      this.lights() && button(this.text(this.lit ? 'steps_unlight' : 'steps_light', 'A'), () => this.toggle_light(), {id: 'step_light'}),
     ] : [make('p', {class: 'good'}, this.text('steps_all_done'))];
     const list = make('ol', {}, ...rows.map((row, n) => make('li', {}, button(
         (row.done ? '✓ ' : row.current ? '▸ ' : '○ ') + row.title,
@@ -193,6 +230,7 @@ export class Course {
 
   // The work is done: the picture is taken, then the user marks his own work.
   async finish() {
+    if (this.lit) this.put_out();
     this.page = 'own';
     clearTimeout(this.timer);
     this.show();

@@ -2,9 +2,10 @@
 // picture and says where the hand is; in worker.js it ticks.
 import {compile, start, trouble} from '../common/burr.js';
 import {fit, wanted_size} from '../common/canvas.js';
-import {show} from '../common/skin.js';
+import {begin_bone, show} from '../common/skin.js';
 import {Course} from './course.js';
 import {Sound} from './sound.js';
+import {Watch} from './watch.js';
 import * as words from '../common/words.js';
 
 const {word, number} = words;
@@ -32,7 +33,9 @@ const burr = window.burr = {
   figures: {},
   ready: false,
   voxel: 0.5,
+  own: {},  // of a scan that is opened
   // where the burr is in the picture, and its radius there [pixel of the canvas]
+  pressing: () => pressed,
   place: () => [...view.numbers(view.view_burr(), 3)],
   measure: () => worker.postMessage({kind: 'measure'}),  // times of ticks begin anew
   hash: () => worker.postMessage({kind: 'hashes'}),      // gives burr.hashes
@@ -55,6 +58,9 @@ let sounds = null;      // the sound is loaded, or on its way
 let pictured = null;    // who waits for a picture of the canvas
 let before = 0, drew = false;
 let skin_whole = false;
+let own = null;         // the user's own bone, on its way to the worker
+let is_own = false;     // the bone is the user's: it has no case, so no steps and no score
+let unseen = false;     // it is not in the picture yet
 const waiting = [];     // patches and parts for the view
 
 const course = new Course({
@@ -64,9 +70,28 @@ const course = new Course({
   picture: () => new Promise((go) => { pictured = go; dirty = true; }),
   keep: (bytes, name, type) => keep(bytes, name, type),
   changed: () => dress_course(),
+  // an exam watches over nobody
+  opened: (compiled_score) => (burr.mode === 'exam' ? watch.host.opened() : watch.open(compiled_score, burr.voxel, burr.mode, work)),
+  step: (id) => watch.step(id),
+  light: (what) => light(what),
 });
 burr.course = course;
 const sound = burr.sound = new Sound();
+const watch = burr.watch = new Watch({
+  lift: (text) => {
+    pressed = false;  // stop and look; it must be pressed again
+    say(text, 8000);
+  },
+  note: (event) => course.note(event),
+  near: (to_spare, injured) => sound.near(to_spare, injured),
+  rows: (port) => worker.postMessage({kind: 'rows', port}, [port]),
+  opened: () => {
+    course.loaded = true;
+    watch.step(course.steps?.now?.id);
+    watch.heard(sound.on);
+    dress_course();
+  },
+});
 
 main().catch(fail);
 
@@ -104,7 +129,9 @@ async function load_case() {
 // The worker begins with a bone, the first one or another.
 function begin() {
   say(word('shaping'));
-  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel, work: ++work, hidden: document.hidden, task: {about, mode: burr.mode}});
+  worker.postMessage({kind: 'start', compiled, voxel: burr.voxel, own, work: ++work, hidden: document.hidden, task: {about, mode: burr.mode}},
+                     own ? [own.buffer] : []);
+  own = null;
 }
 
 // The page stops, and its last sentence stays.
@@ -124,6 +151,11 @@ function hear(data) {
   switch (data.kind) {
     case 'shaped':
       mark('shaped');
+      if (data.tissues) {
+        burr.voxel = data.voxel;
+        begin_bone(view, data.tissues, data.voxel, 1000);
+        unseen = true;
+      }
       break;
     case 'skin':
       waiting.push(...data.patches);
@@ -139,7 +171,8 @@ function hear(data) {
       view?.view_anew();
       mark('ready');
       say(word('drag_mill') + '. ' + word('how_mouse'), 12000);
-      course.begin(burr.voxel, burr.mode, work);
+      if (is_own) course.leave(work);
+      else course.begin(burr.voxel, burr.mode, work);
       sounds ??= sound.load().then(dress_sound);
       break;
     case 'state':
@@ -181,6 +214,10 @@ function draw(now) {
     const fresh = waiting.length > 0;
     take_waiting();
     if (fresh && !burr.ready) view.view_anew();
+    if (unseen && skin_whole && fresh) {
+      unseen = false;
+      view.view_whole();
+    }
     if (fit(canvas)) dirty = true;
     if (burr.ready) point();
     const took = drew ? now - before : 0;  // of the picture before, if the one after it follows at once
@@ -190,6 +227,7 @@ function draw(now) {
     dirty = false;
     if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) throw new Error(view.text(view.view_why()));
     ++burr.pictures;
+    draw_light();
     if (pictured && view.view_refined() === 1) {  // now: later the canvas is empty
       const go = pictured;
       pictured = null;
@@ -230,6 +268,36 @@ function write() {
   $('loop').textContent = lost > 0 ? word('left_out', number(lost, 0)) : word('ticks_good');
 }
 
+// ---- the target of the step: its tissues in a bright colour, and rings over the picture
+
+let rings = [];
+function light(what) {
+  if (!view) return;
+  view.view_unlight();
+  for (const tissue of what?.tissues ?? []) view.view_light(tissue, ...what.colour);
+  rings = (what?.rings ?? []).map((ring) => {
+    const make = (kind) => document.createElementNS('http://www.w3.org/2000/svg', kind);
+    const [circle, name] = [make('circle'), make('text')];
+    name.textContent = ring.name;
+    return {...ring, circle, text: name};
+  });
+  $('light').replaceChildren(...rings.flatMap(({circle, text}) => [circle, text]));
+  draw_light();
+  dirty = true;
+}
+function draw_light() {
+  const scale = canvas.clientHeight / Math.max(1, canvas.height);
+  for (const {at, radius, circle, text} of rings) {
+    const [x, y, r] = view.numbers(view.view_place(...at, radius), 3);
+    const wide = Math.max(6, scale * r);
+    circle.setAttribute('visibility', r < 0 ? 'hidden' : 'visible');
+    text.setAttribute('visibility', r < 0 ? 'hidden' : 'visible');
+    for (const [name, value] of [['cx', scale * x], ['cy', scale * y], ['r', wide]]) circle.setAttribute(name, value);
+    text.setAttribute('x', scale * x + wide + 5);
+    text.setAttribute('y', scale * y + 4);
+  }
+}
+
 // ---- from the user
 
 let said = 0;
@@ -252,12 +320,18 @@ const acts = {
   faster: () => change_speed(kRpmStep),
   less: () => change_depth(1 / 1.25),
   more: () => change_depth(1.25),
-  home: () => { view.view_home(); dirty = true; },
+  home: () => {
+    if (is_own) view.view_whole();
+    else view.view_home();
+    dirty = true;
+  },
   finer: begin_finer,
+  own: open_own,
   finish: () => course.ask_done(),
   show_steps: () => course.show_steps(),
-  sound: () => sound.toggle(kTicks).then(dress_sound),
+  sound: () => sound.toggle(kTicks).then(dress_sound).then(() => watch.heard(sound.on)),
   step_done: () => course.step_done(),
+  light: () => course.toggle_light(),
   save: () => {
     if (!burr.ready) return;
     if (course.save()) return;
@@ -301,14 +375,37 @@ function change_depth(factor) {
   $('depth').textContent = number(depth, 1);
 }
 
+// What reads scans is loaded when somebody has one.
+async function open_own() {
+  try {
+    const {open_scan} = await import('../common/import.js');
+    open_scan(burr.own, ({blob}) => {
+      own = blob;
+      is_own = true;
+      burr.mode = 'free';
+      begin_anew();
+    });
+  } catch {
+    say(word('scan_broken'), 12000);
+  }
+}
+
+// The page's own bone again, after one of the user's.
+function leave_own() {
+  if (is_own) burr.voxel = 0.5;
+  is_own = false;
+}
+
 // The same bone with finer voxels, in the same worker.
 function begin_finer() {
-  burr.voxel = burr.voxel === 0.5 ? 0.25 : 0.5;
+  burr.voxel = !is_own && burr.voxel === 0.5 ? 0.25 : 0.5;
+  is_own = false;
   begin_anew();
 }
 
 function begin_anew() {
   course.close();
+  watch.close();
   burr.ready = skin_whole = false;
   burr.times = {};
   waiting.length = 0;
@@ -316,7 +413,7 @@ function begin_anew() {
   speed = 80000;
   size = 5;
   states = 0;
-  view.view_bone(burr.voxel);
+  if (!own) view.view_bone(burr.voxel);
   $('save').disabled = false;
   dress();
   begin();
@@ -325,7 +422,7 @@ function begin_anew() {
 
 const keys = {
   u: 'undo', y: 'redo', r: 'reset', '[': 'smaller', ']': 'larger', PageDown: 'smaller', PageUp: 'larger', ',': 'slower',
-  '.': 'faster', '+': 'more', '=': 'more', '-': 'less', f: 'home', j: 'step_done', o: 'show_steps', m: 'sound',
+  '.': 'faster', '+': 'more', '=': 'more', '-': 'less', f: 'home', j: 'step_done', a: 'light', o: 'show_steps', m: 'sound',
 };
 
 function listen() {
@@ -417,10 +514,12 @@ function listen() {
     words.choose($('language').value);
     dress();
     course.speak();
+    watch.speak();
   });
   $('volume').addEventListener('input', () => sound.volume($('volume').valueAsNumber));
   $('mode').addEventListener('change', () => {
     burr.mode = $('mode').value;
+    leave_own();
     begin_anew();
   });
 }
@@ -457,10 +556,11 @@ function dress() {
     $(id).setAttribute('aria-label', word(key));
   }
   $('home').textContent = word('first_view');
+  $('own').textContent = word('own_scan');
   $('save').textContent = word('save');
   $('save').title = word('save_tip');
-  $('finer').textContent = `${number(burr.voxel === 0.5 ? 0.25 : 0.5, 2)} mm`;
-  if (burr.voxel === 0.5) $('finer').textContent = word('finer');
+  $('finer').textContent = `${number(burr.voxel === 0.5 && !is_own ? 0.25 : 0.5, 2)} mm`;
+  if (burr.voxel === 0.5 && !is_own) $('finer').textContent = word('finer');
   $('finer').title = word('finer_tip');
   $('language').setAttribute('aria-label', word('language'));
   $('language').replaceChildren(...words.languages().map(({code, name}) => {

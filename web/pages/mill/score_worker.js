@@ -2,15 +2,15 @@
 // the first cut is possible. What it measures takes seconds, and no tick waits for that.
 //
 //     page -> worker   open {voxel, mode, language, work}, look {bytes}, done, choose {row}, language {language},
-//                      mark {file}, page {png, width, height, caption}
-//     worker -> page   opened {words, steps, events, questions}, looked {ticked, steps, events}, steps {steps, events},
+//                      light, mark {file}, page {png, width, height, caption}
+//     worker -> page   opened {compiled, words, steps, events, questions}, looked {ticked, steps, events}, steps {steps, events}, lit {light},
 //                      dressed {words, steps, questions, marks}, marked {marks} or {why}, page {html} or {why}, broken {text}
 import make from '../burr_score.mjs';
 import {compile, start} from '../common/burr.js';
 
 const kBrick = 1028;  // bytes; web::ChangedBrick
 
-let burr = null, marked = false;
+let burr = null, compiled = null, marked = false;
 let work = 0;
 
 self.onmessage = ({data}) => {
@@ -29,11 +29,12 @@ const changed = (events) => ({events: json(events), steps: json(burr.score_steps
 async function take(data) {
   if (data.kind === 'open') {
     work = data.work;
-    burr ??= await start(await compile('burr_score.wasm'), make);
+    compiled ??= await compile('burr_score.wasm');
+    burr ??= await start(compiled, make);
     marked = false;
     burr.with_texts([data.language], burr.score_speak);
     if (!burr.with_texts([data.mode], (mode) => burr.score_open(mode, data.voxel))) throw new Error(why());
-    tell({kind: 'opened', events: json(burr.score_begin()), ...texts()});
+    tell({kind: 'opened', compiled, events: json(burr.score_begin()), ...texts()});
   } else if (data.work !== work) {
     return;  // about a bone that is gone
   } else if (data.kind === 'look') {
@@ -44,6 +45,8 @@ async function take(data) {
     tell({kind: 'steps', ...changed(burr.score_done(0))});
   } else if (data.kind === 'choose') {
     tell({kind: 'steps', ...changed(burr.score_choose(data.row))});
+  } else if (data.kind === 'light') {
+    tell({kind: 'lit', light: json(burr.score_light())});
   } else if (data.kind === 'language') {
     burr.with_texts([data.language], burr.score_speak);
     tell({kind: 'dressed', ...texts(), marks: marked ? json(burr.score_marks()) : null});

@@ -37,6 +37,10 @@ export class Sound {
     this.loudness = loudness;
     this.node?.port.postMessage({loudness: this.on ? loudness : 0});
   }
+  // What watch.js found: how near what must not be cut is [m, or null], and whether the burr is in it.
+  near(to_spare, injured) {
+    if (this.on) this.node.port.postMessage({to_spare: to_spare ?? Infinity, injured});
+  }
   // The newest row of the ticks.
   row(bytes) {
     if (this.on) this.node.port.postMessage({row: bytes});

@@ -15,6 +15,7 @@ class BurrSound extends AudioWorkletProcessor {
     this.since = kSilentAfter;
     this.port.onmessage = ({data}) => {
       if (data.loudness !== undefined) this.loudness = data.loudness;
+      if (data.to_spare !== undefined) exports.sound_near(data.to_spare, data.injured ? 1 : 0);
       if (data.row) {
         new Uint8Array(exports.memory.buffer, exports.sound_row(), data.row.length).set(data.row);
         exports.sound_update();

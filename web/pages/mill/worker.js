@@ -3,22 +3,23 @@
 // All ticks that are due are computed together, every 4 ms or so: a mouse has no motors, so nobody
 // feels that. Ticks that a busy machine has missed are left out and counted, never made up for.
 //
-//     page -> worker   start {compiled, voxel, work, hidden, task}, next {aim}, command {what, value}, pause {on}, hashes,
-//                      note {kind, what, value}, changed, save {declared}, measure
-//     worker -> page   shaped, skin {patches}, skin_done, soft {parts}, ready, state {row, patches, ...}, hashes,
+//     page -> worker   start {compiled, voxel, own, work, hidden, task}, next {aim}, command {what, value}, pause {on}, hashes, rows {port},
+//                      note {kind, what, where, value}, changed, save {declared}, measure
+//     worker -> page   shaped {voxel, tissues}, skin {patches}, skin_done, soft {parts}, ready, state {row, patches, ...}, hashes,
 //                      changed {bytes}, saved {file} or {why}, broken {text, why, parts}
 //
 // The page answers every state with `next`; until then none is sent, so none waits in a queue. A second `start` begins
 // anew with another bone: the worker stays, so nothing is fetched again. Each bone has a number, `work`, and each message
 // carries it, so that the page can leave what came of the bone before.
 import {start, trouble} from '../common/burr.js';
-import {Skin} from '../common/skin.js';
+import {Skin, tissues} from '../common/skin.js';
 
 const kMostTicks = 50;    // in one beat
 const kSkinMs = 4;        // for the surface, in each beat
 const kBrick = 1028;      // bytes; web::ChangedBrick
 
 let burr = null, skin = null;
+let watcher = null, watches = false;  // who looks at rows (watch_worker.js), and whether it is busy with one
 let paused = false, wanted = true, running = false;
 let work = 0;            // number of the bone
 let timer = 0;           // of the next beat; there is never more than one
@@ -45,6 +46,11 @@ function broken(what) {
 function take(data) {
   if (data.kind === 'start') return void open(data).catch(broken);
   if (data.kind === 'pause') return pause(data.on);  // the bone may still be on its way
+  if (data.kind === 'rows') {
+    watcher = data.port;
+    watcher.onmessage = () => { watches = false; };
+    return;
+  }
   if (!running) return;
   if (data.kind === 'next') {
     wanted = true;
@@ -60,7 +66,7 @@ function take(data) {
   } else if (data.kind === 'measure') {
     clear_times();
   } else if (data.kind === 'note') {
-    burr.with_texts([data.what.kind, data.what.what, data.what.value], burr.core_note);
+    burr.with_texts([data.what.kind, data.what.what, data.what.where, data.what.value], burr.core_note);
   } else if (data.kind === 'changed') {
     const at = burr.core_changed();
     const bytes = burr.bytes(at, burr.core_changed_count() * kBrick).slice();
@@ -103,8 +109,14 @@ async function open(from) {
   const mine = await start(from.compiled);
   if (work !== from.work) return;  // another one was asked for meanwhile
   burr = mine;
-  if (!burr.core_make(from.voxel)) throw trouble('no_memory');
-  tell({kind: 'shaped', voxel: from.voxel});
+  if (from.own) {
+    if (!burr.with_bytes([from.own], (at) => burr.core_take(at, from.own.length))) throw trouble('no_memory');
+    from.own = null;
+    tell({kind: 'shaped', voxel: burr.core_voxel_mm(), tissues: tissues(burr)});
+  } else {
+    if (!burr.core_make(from.voxel)) throw trouble('no_memory');
+    tell({kind: 'shaped', voxel: from.voxel});
+  }
   skin = new Skin(burr, work);
   await skin.send_whole(() => work === from.work);
   if (work !== from.work) return;
@@ -149,6 +161,10 @@ function beat() {
       const each = Math.round(1e3 * (performance.now() - now) / due);
       took.set(each, (took.get(each) ?? 0) + due);
       timed += due;
+      if (watcher && !watches) {
+        watches = true;
+        watcher.postMessage({bytes: burr.bytes(burr.core_row(), burr.core_row_size()).slice(), work});
+      }
     }
     const until = performance.now() + kSkinMs;
     while (performance.now() < until && skin.make_one()) { /* the next */ }

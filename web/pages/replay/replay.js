@@ -20,7 +20,7 @@ const burr = window.burr = {
   hash: () => worker.postMessage({kind: 'hash', work}),  // gives burr.bone
 };
 
-let view = null, worker = null, compiled = null;
+let view = null, worker = null;
 let seconds = 0, wanted = null, asked = false, playing = 0;  // playing: when it began, less the time shown [ms]
 let dirty = true, seen = false, before = 0, drew = false;
 let work = 0;       // number of the file
@@ -36,8 +36,7 @@ async function main() {
   worker.onerror = (what) => fail(new Error(what.message || 'worker'));
   const here = new Promise((go) => { come = go; });
   const [module] = await Promise.all([compile(), words.load()]);
-  compiled = module;
-  view = await start(compiled);
+  view = await start(module);
   if (view.view_open(...wanted_size(canvas)) === 0) throw trouble('no_webgl');
   view.view_bone(0.5);
   for (const one of document.querySelectorAll('[data-word]')) one.textContent = word(one.dataset.word);
@@ -76,7 +75,7 @@ function open(file) {
   wanted = null;
   $('play').disabled = $('time').disabled = true;
   say(word('loading'));
-  worker.postMessage({kind: 'open', compiled, file, work: ++work});
+  worker.postMessage({kind: 'open', file, work: ++work});
 }
 
 function hear(data) {

@@ -1,15 +1,17 @@
 // The worker of the page: reads a recording, and makes bone and row of any moment. The file stays in this worker.
 //
-//     page -> worker   open {compiled, file, bone, work}, seek {time}, hash; bone: of a recording that holds none, as bytes
+//     page -> worker   open {file, bone, work}, seek {time}, hash; bone: of a recording that holds none, as bytes
 //     worker -> page   here, opened {seconds, rate, voxel, tissues}, skin {patches}, skin_done, soft {parts}, ready,
 //                      moment {time, row, patches}, hash {bone}, refused {why, parts}, broken {text, why, parts}
 //
 // Each file has a number, `work`, and each message carries it, so that the page can leave what came of the file before.
-import {start} from '../common/burr.js';
+import make from '../burr_replay.mjs';
+import {compile, start} from '../common/burr.js';
 import {Skin, tissues} from '../common/skin.js';
 
 const kPath = '/in/burr.mcap';
 
+const reader = compile('burr_replay.wasm');
 let burr = null, skin = null;
 let work = 0;  // number of the file
 
@@ -23,16 +25,16 @@ self.onmessage = async ({data}) => {
     tell({kind: 'broken', text: String(what?.message ?? what), why: what?.why, parts: what?.parts});
   }
 };
-self.postMessage({kind: 'here'});
+reader.then(() => self.postMessage({kind: 'here'}), (what) => tell({kind: 'broken', text: String(what?.message ?? what)}));
 
 function tell(message) {
   self.postMessage({...message, work});
 }
 
-async function open({compiled, file, bone, work: mine}) {
+async function open({file, bone, work: mine}) {
   work = mine;
   burr = skin = null;  // an older file gives its memory back
-  const fresh = await start(compiled);
+  const fresh = await start(await reader, make);
   if (work !== mine) return;  // another one was chosen meanwhile
   burr = fresh;
   // the file stays where it is: of it only what a moment needs is read (File.slice)

@@ -8,30 +8,16 @@
 // Thread: main. Units: SI. Frame: world.
 #pragma once
 
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "burr/math/vec3.h"
 #include "burr/render/scene.h"
 #include "burr/scenario/lesson.h"
 #include "burr/volume/tissue.h"
+#include "window/mill/step_rings.h"
 #include "window/shell/ui.h"
 
 namespace burr::app {
-
-// A ring of the picture: around a ball at `at`.
-struct Ring {
-  math::Vec3 at = math::Vec3::Zero();
-  double radius = 0;  // [m]
-  std::string name;
-  bool operator==(const Ring& other) const = default;
-};
-
-// The landmarks and regions among `show` of a step, its region if it shows nothing. Parts of a region
-// that are defined by structures have no ring.
-[[nodiscard]] std::vector<Ring> rings_of(const scenario::Step& step,
-                                         const scenario::Lesson& lesson);
 
 class StepLight {
  public:

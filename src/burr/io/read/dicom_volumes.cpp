@@ -53,7 +53,10 @@ bool bone_kernel(const Series& series, const Volume& volume) {
 struct Key {
   double number = 0;
   std::string text;
-  auto operator<=>(const Key&) const = default;
+  bool operator==(const Key&) const = default;
+  bool operator<(const Key& other) const {  // not every library of today can compare strings by <=>
+    return std::tie(number, text) < std::tie(other.number, other.text);
+  }
 };
 
 enum class Fact { kernel, kvp, stack, temporal, cardiac, trigger, acquisition, echo, type, time };

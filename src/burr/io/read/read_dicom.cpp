@@ -207,7 +207,8 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, bool 
     }
   };
   std::thread second;
-  if (work.size() > 1 && kWorkers > 1) second = std::thread([&] { worker(false); });
+  if (work.size() > 1 && kWorkers > 1 && std::thread::hardware_concurrency() > 1)
+    second = std::thread([&] { worker(false); });
   worker(true);
   if (second.joinable()) second.join();
   if (!outcome) return outcome;
