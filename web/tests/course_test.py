@@ -290,6 +290,8 @@ def learn(browser, site, downloads):
     keep(page, "found")
     recorded = saved(page, downloads, "burr.mcap", "save_done")
     if recorded:
+        told = recorded.read_bytes()
+        check(b"injury" in told and b"sigmoid sinus" in told and b"help_shown" in told, "the recording says what was lit and where the burr was stopped")
         score(page, recorded, mine)
         report(page, downloads, recorded)
     elsewhere(page, site, loaded)
