@@ -122,6 +122,7 @@ class Env(_Base):
         low = -high
         low[6] = 0
         self.action_space = Box(low, high, dtype=np.float32)
+        self._low, self._high = low.astype(np.float64), high.astype(np.float64)
         many = len(self.task.structures)
         free = {"pose": 7, "velocity": 3, "force": 3, "torque": 3}
         spaces = {name: Box(-np.inf, np.inf, (size,), np.float32) for name, size in free.items()}
@@ -166,7 +167,7 @@ class Env(_Base):
     def _act(self, action: Any) -> None:
         if self._over:
             raise burr.Error("this episode is over; call reset()")
-        a = np.clip(np.asarray(action, np.float64).reshape(7), self.action_space.low, self.action_space.high)
+        a = np.minimum(np.maximum(np.asarray(action, np.float64).reshape(7), self._low), self._high)
         self._p = self._p + a[:3]
         self._q = _turned(self._q, float(a[3]), float(a[4]), float(a[5]))
         self.session.hand(self._p, self._q, float(a[6]), ticks=self.ticks)
@@ -184,7 +185,7 @@ class Env(_Base):
         turning = abs(float(row["spindle_rad_per_s"])) > 1
         injured = turning and any(soft and d < radius for soft, d in zip(task.soft, observation["near"]))
         step = Step(row, removed, task.voxel_mm3 * float(removed[task.target].sum()), int(removed[task.spared].sum()), injured,
-                    float(np.linalg.norm(row["force_n"])))
+                    math.hypot(*row["force_n"].tolist()))
         self._steps += 1
         hurt = self.end_on_injury and (step.injured or step.spared_voxels > 0)
         done = bool(task.done_mm3) and all(task.voxel_mm3 * self._gone[n] >= mm3 for n, mm3 in task.done_mm3.items())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 namespace burr::python {
 namespace {
@@ -51,6 +52,7 @@ const Field kFields[] = {
     BURR_FIELD("tool_mode", "i4", 1, tool_mode),
     BURR_FIELD("tool_number", "i4", 1, tool_number),
     BURR_FIELD("coolant", "?", 1, coolant),
+    BURR_FIELD("mirrored", "?", 1, mirrored),
     BURR_FIELD("took_us", "f4", 1, took),
     BURR_FIELD("late_us", "f4", 1, late),
     BURR_FIELD("hash", "u8", 1, hash),
@@ -101,6 +103,7 @@ Row row_of(const tick::TickRow& row) {
   out.tool_mode = static_cast<std::int32_t>(row.tool.mode);
   out.tool_number = row.tool.number;
   out.coolant = row.tool.irrigated ? 1 : 0;
+  out.mirrored = row.tool.mirror_axis >= 0 ? 1 : 0;
   out.took = row.took_us;
   out.late = row.late_us;
   out.hash = row.hash;
@@ -111,7 +114,11 @@ Row row_of(const tick::TickRow& row) {
 
 py::dtype row_type() {
   py::list names, types, places;
-  for (const Field& field : kFields) {
+  // numpy.save() wants them as they lie in memory
+  std::vector<Field> fields(std::begin(kFields), std::end(kFields));
+  std::sort(fields.begin(), fields.end(),
+            [](const Field& a, const Field& b) { return a.at < b.at; });
+  for (const Field& field : fields) {
     names.append(field.name);
     types.append(field.count == 1 ? py::object(py::str(field.type))
                                   : py::make_tuple(field.type, py::make_tuple(field.count)));

@@ -1,7 +1,7 @@
 // python/src/rows.h - the rows of ticks as a structured array: names, units and order as in a
 // recording (docs/recording.md), three numbers of a vector in one field, quaternions w x y z.
 //
-// The layout is fixed: a field is added at the end or not at all, and kRowsVersion then grows.
+// The layout is fixed; kRowsVersion grows with it.
 #pragma once
 
 #include <vector>
@@ -31,7 +31,7 @@ struct Row {
   std::uint32_t buttons, flags;
   std::int32_t active, candidates, tool_number, tool_mode, tool_kind;
   float took, late;
-  std::uint8_t valid, touching, coolant;
+  std::uint8_t valid, touching, coolant, mirrored;  // no gap at the end: numpy.save() keeps none
 };
 
 }  // namespace burr::python

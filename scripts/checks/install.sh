@@ -37,6 +37,20 @@ if "$place/prefix/bin/burr" --quiet info "$place/ball.nrrd" 2>"$place/log"; then
 fi
 grep -q "install burr again" "$place/log"
 BURR_READ="$place/burr-read" "$place/prefix/bin/burr" --quiet info "$place/ball.nrrd"
+# the installed module for Python, without the folder of the build: it finds the library, the bones and burr-read
+if [ -d "$place"/prefix/lib/python3*/site-packages/burr ]; then
+  (cd "$place" && env -u LD_LIBRARY_PATH PYTHONPATH="$(echo "$place"/prefix/lib/python3*/site-packages)" /usr/bin/python3 - <<'END'
+import burr
+import burr.env
+bone = burr.Bone.load("ball.nrrd")
+session = burr.Scene(bone, burr_mm=5).session(burr.Hand.motion("pocket", seconds=2))
+assert session.step(500) == 500
+assert "/prefix/" in burr.__file__
+loaded = {line.split()[-1] for line in open("/proc/self/maps") if "libburr" in line}
+assert loaded and all("/prefix/" in name for name in loaded), loaded
+END
+  )
+fi
 if grep -rlE '#include <(itk|gdcm|nlohmann|fmt|spdlog|SDL|epoxy|zstd)' "$place/prefix/include"; then
   echo "the installed headers above need more than Eigen"
   exit 1

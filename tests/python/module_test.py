@@ -195,6 +195,10 @@ class Sessions(unittest.TestCase):
             self.assertEqual(session.ticks, 1200)
             self.assertEqual(session.seconds, 1.2)
             self.assertEqual(session.row["hash"], rows["hash"][-1])
+            with tempfile.TemporaryFile() as file:
+                np.save(file, rows)
+                file.seek(0)
+                np.testing.assert_array_equal(np.load(file), rows)
             self.assertEqual(rows["force_n"].shape, (1200, 3))
             np.testing.assert_allclose(rows["hand_q"][-1], leaning())  # w x y z
             np.testing.assert_allclose(rows["hand_m"][0], (-3e-3, 0, 4e-3))
