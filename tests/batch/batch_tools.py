@@ -48,20 +48,26 @@ class Batch:
         return [file for file in (self.folder / out).rglob("*") if ".part-" in file.name]
 
 
-def killed_again_and_again(batch, out, shards, kills, seed, longest_s, signals=(signal.SIGKILL, signal.SIGTERM)):
-    """Does the shards in a random order and kills at random moments, then goes on. Returns how often a kill met a running program."""
+def killed_again_and_again(batch, out, shards, kills, seed, longest_s):
+    """Does the shards in a random order and kills, then goes on. Every other kill comes at a random moment, by SIGKILL or SIGTERM; the others
+    when the file of a result is just there, which then must be whole. Returns how many kills met a running program."""
     chance, met = random.Random(seed), 0
-    while met < kills:
-        shard = chance.randrange(shards)
+    while met < kills and done_rows(batch, out) < rows(batch):
+        shard, before = chance.randrange(shards), done_rows(batch, out)
         program = subprocess.Popen([str(word) for word in batch.words(out, f"{shard}/{shards}")], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
-        time.sleep(chance.uniform(0, longest_s))
+        number = chance.choice((signal.SIGKILL, signal.SIGTERM))
+        if met % 2 == 0:
+            time.sleep(chance.uniform(0, longest_s))
+        else:
+            number = signal.SIGKILL
+            while program.poll() is None and done_rows(batch, out) == before:
+                time.sleep(0.002)
         if program.poll() is None:
-            program.send_signal(chance.choice(signals))
+            program.send_signal(number)
             met += 1
-        elif done_rows(batch, out) >= rows(batch):
-            break
-        program.wait()
+        ended = program.wait()
+        assert ended in (0, 143, -signal.SIGKILL, -signal.SIGTERM), f"shard {shard} of {out}: {ended}"  # -SIGTERM: before main
     for shard in range(shards):
         batch.do(out, f"{shard}/{shards}")
     return met
