@@ -44,7 +44,7 @@ ALLOWED = {
     "serve": "",
     "http": "",
     "lrs": "school http",
-    "workshop": "sim tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
+    "workshop": "sim edit tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
 
@@ -64,8 +64,9 @@ ONLY = {
     ("record", "edit"): {"ledger.h", "mirror.h"},
     ("record", "tool"): {"burr_tool.h", "state.h", "shaped_tool.h", "shape_grid.h"},
     ("sim", "edit"): {"piece_store.h", "piece_move.h", "bone_memory.h", "crossed.h"},
+    ("workshop", "edit"): {"piece_store.h"},
     ("metrics", "tick"): {"rows.h"},
-    ("metrics", "tool"): {"burr_tool.h", "state.h"},
+    ("metrics", "tool"): {"burr_tool.h", "state.h", "places.h", "shaped_tool.h"},
     ("scoring", "record"): {"player.h", "course.h"},
     ("school", "record"): {"identity.h"},
 }

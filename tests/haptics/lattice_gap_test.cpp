@@ -162,5 +162,28 @@ TEST(LatticeGap, OfTwoLattices) {
   }
 }
 
+// Neither comes first: the points of both are looked at, whichever is named first.
+TEST(LatticeGap, OfTwoLatticesHasNoFirst) {
+  const Shape ball = lattice_of(kBall, 19), box = lattice_of(kBox, 21);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  double of_points = 0;  // by which the points of the other would be too far away, at most
+  for (int n = 0; n < 60; ++n) {
+    const Vec3 way = Vec3(any(random), any(random), any(random)).normalized();
+    const PartPlace a = {box, Vec3(any(random), any(random), any(random)),
+                         math::turned(Quat::Identity(), Vec3(any(random), any(random), 1))},
+                    b = {ball, a.middle + 15 * way,
+                         math::turned(Quat::Identity(), Vec3(any(random), 1, any(random)))};
+    const double least = lattice_gap(a, b, 50);
+    EXPECT_EQ(least, lattice_gap(b, a, 50));
+    EXPECT_EQ(all_gaps(a, b, 4).size(), all_gaps(b, a, 4).size());
+    const PartPlace plain_box = {kBox, a.middle, a.turn}, plain_ball = {kBall, b.middle, b.turn};
+    const double of_a = lattice_gap(a, plain_ball, 50), of_b = lattice_gap(plain_box, b, 50);
+    EXPECT_LT(least, std::min(of_a, of_b) + 0.2) << "a lattice of cells of 1 is no formula";
+    of_points = std::max(of_points, std::abs(of_a - of_b));
+  }
+  EXPECT_GT(of_points, 0.1) << "it makes a difference whose points are looked at";
+}
+
 }  // namespace
 }  // namespace burr::haptics

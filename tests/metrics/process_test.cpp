@@ -49,6 +49,47 @@ class ProcessTest : public ::testing::Test {
   ProcessSettings settings_;
 };
 
+// A tool of the rack is as near as its cutting parts are, wherever it is held: here a rod of 2 mm that lies across,
+// 10 mm long, with its end where the hand holds it.
+TEST_F(ProcessTest, AToolOfTheRackIsAsNearAsItsCuttingParts) {
+  tool::ShapedTool rod;
+  constexpr double kEdge = 0.2 * kMm;
+  const auto add = [&rod](double radius, double middle, tool::Role role) {
+    ASSERT_TRUE(tool::add_part(
+        rod.tool, {{tool::ShapeKind::cylinder, radius - kEdge, 0, 5 * kMm - kEdge, kEdge},
+                   {{0, 0, middle}, math::Quat::Identity()},
+                   role}));
+  };
+  add(1 * kMm, 5 * kMm, tool::Role::cuts);
+  add(3 * kMm, 15 * kMm, tool::Role::rubs);  // a handle: it does not cut
+  MomentMaker moments(test::kRate, false, {rod});
+  Distances distances({{"nerve", nerve_.get()}});
+  tick::TickRow row;
+  row.tool = {.radius = 1.5 * kMm, .full_speed = 5000};
+  row.tool.number = 0;
+  row.hand.world_from_tool.q = math::Quat(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitY()));
+  const auto at = [&](const Vec3& p) {
+    row.contact.proxy = row.hand.world_from_tool.p = p;
+    Moment now;
+    EXPECT_TRUE(moments.make(row, false, now));
+    distances.update(now);
+    EXPECT_NEAR(now.tool.radius, 1 * kMm, 0.02 * kMm);
+    return distances.of(0);
+  };
+  EXPECT_NEAR(at({-5 * kMm, 0, 8 * kMm}), 5 * kMm, 0.15 * kMm) << "its middle is over the ball";
+  EXPECT_NEAR(at({4 * kMm, 0, 0}), 2 * kMm, 0.15 * kMm) << "its end";
+  EXPECT_LT(at({-5 * kMm, 0, 2 * kMm}), 0) << "in it";
+  // contact has turned it away: its end is over the ball
+  row.contact.turn = Vec3(0, -0.5 * std::numbers::pi, 0);
+  EXPECT_NEAR(at({0, 0, 4 * kMm}), 2 * kMm, 0.15 * kMm);
+  row.contact.turn = Vec3::Zero();
+  EXPECT_GT(at({-5 * kMm, 0, 60 * kMm}), 12 * kMm);
+  // the round burr
+  row.tool.number = -1;
+  row.tool.radius = 1 * kMm;
+  EXPECT_NEAR(at({4 * kMm, 0, 0}), 1 * kMm, 0.1 * kMm);
+}
+
 // Q1: straight down the z axis towards the ball, 10 mm/s from d = 5 mm to d = 0.4 mm, then still;
 // force 0.5 N and cutting all the time. The burr's radius is 1 mm.
 TEST_F(ProcessTest, NearnessOfAStraightApproach) {

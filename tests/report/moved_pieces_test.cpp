@@ -1,9 +1,15 @@
 // A piece of bone was moved in a session: score and report say so as facts, and no item changes.
 #include <gtest/gtest.h>
 
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -14,8 +20,10 @@
 #include "burr/sim/session.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/recording.h"
+#include "render/gpu.h"
 #include "report/make_report.h"
 #include "report/report_page.h"
+#include "report/report_pictures.h"
 #include "report/scored.h"
 #include "support/folder.h"
 
@@ -91,6 +99,40 @@ Scored score_of(const std::string& file) {
   auto made = scored(std::move(*judged), {}, quiet);
   EXPECT_TRUE(made.ok()) << made.error().text;
   return std::move(*made);
+}
+
+// The pictures of a moment show a piece that was out of the bone then, and not before.
+TEST(MovedPieces, ThatAreOutAreInTheEvidence) {
+  BURR_NEEDS_GPU(gpu);
+  const test::Folder folder;
+  const std::string file = (folder.path() / "lifted.mcap").string();
+  record_session(file, Vec3::Zero(), Vec3::Zero(), Ends::lift);
+  if (HasFatalFailure()) return;
+  Scored out = score_of(file);
+  ASSERT_FALSE(out.score.outcomes.empty());
+  NoProgress quiet;
+  auto artist = ReportArtist::make(out, quiet);
+  ASSERT_TRUE(artist.ok()) << artist.error().text;
+  const auto blue_at = [&](std::uint64_t tick) {
+    out.score.outcomes[0].tick = tick;
+    const std::size_t first = 0;
+    auto made = (*artist)->evidence(std::span(&first, 1), 1);
+    EXPECT_TRUE(made.ok());
+    if (!made.ok() || (*made)[0].empty()) return -1;
+    const std::string& png = (*made)[0][0].png;
+    int width = 0, height = 0, count = 0;
+    unsigned char* rgb =
+        stbi_load_from_memory(reinterpret_cast<const unsigned char*>(png.data()),
+                              static_cast<int>(png.size()), &width, &height, nullptr, 3);
+    EXPECT_NE(rgb, nullptr);
+    for (int n = 0; rgb != nullptr && n < width * height; ++n)
+      count += int{rgb[3 * n + 2]} > rgb[3 * n] + 40 ? 1 : 0;
+    stbi_image_free(rgb);
+    return count;
+  };
+  const int before = blue_at(250);
+  EXPECT_LT(before, 50);
+  EXPECT_GT(blue_at(out.judged.player->end_tick() - 1), before + 500);
 }
 
 TEST(MovedPieces, AreFactsBesideTheItemsAndChangeNone) {

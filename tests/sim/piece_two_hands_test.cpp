@@ -162,6 +162,36 @@ TEST(PieceTwoHands, TheSecondHandFeelsWhatItCarries) {
   }
 }
 
+// A suction tube meets the piece that the first hand holds, as any tool does, and pushes one that lies.
+TEST(PieceTwoHands, ATubeMeetsThePiece) {
+  for (const bool held : {true, false}) {
+    Two bench(false);
+    if (held) bench.grab();
+    const double delta = 0.4;  // the ball at its tip has a radius of 1.5 mm
+    bench.put_too({0, 0, 5.5 - delta});
+    const double push = held ? kStiffness * 0.5 * delta * kMm : 0;
+    EXPECT_NEAR(bench.too().contact.force.z(), push, 0.03 * push + 1e-3);
+    EXPECT_NEAR(bench.row.contact.force.z(), -push, 0.03 * push + 1e-6);
+    EXPECT_NEAR(bench.moved().z(), (held ? -0.5 : -1) * delta * kMm, 0.05 * kVoxel);
+    EXPECT_LT(bench.deep(bench.too().contact.proxy, 1.5 * kMm), 0.05);
+    // to the bottom of the slot: the bone under the piece carries what is pressed through it
+    const double beyond = 0.6;
+    bench.put_too({0, 0, 5.5 - 1e3 * kKerf - beyond});
+    EXPECT_NEAR(bench.moved().z(), -kKerf, 0.06 * kVoxel);
+    EXPECT_NEAR(bench.too().contact.force.z(), kStiffness * beyond * kMm,
+                0.04 * kStiffness * beyond * kMm);
+    // it is the tube of three unknowns again when the piece is bone again
+    bench.command(CommandKind::leave_piece);
+    EXPECT_EQ(bench.bone->content_hash(), bench.at_start);
+    bench.put_too({0, 0, 8});
+    bench.put_too({0, 0, 5.5 - delta});
+    EXPECT_NEAR(bench.too().contact.force.z(), kStiffness * delta * kMm,
+                0.03 * kStiffness * delta * kMm);
+    EXPECT_EQ(bench.allocations, 0);
+    EXPECT_EQ(bench.locks, 0);
+  }
+}
+
 // While the second hand carries, the tool is in the first hand again and meets the piece.
 TEST(PieceTwoHands, TheFirstHandsToolMeetsWhatTheSecondCarries) {
   Two bench(false);
@@ -368,7 +398,7 @@ TEST(PieceTwoHands, ARecordingReplaysToTheBit) {
     info.volume.grid = session.bone().grid();
     info.volume.tissues = session.bone().tissues();
     info.volume.recipe.reserve_bricks = 4096;
-    record::Recorder recorder(info.rate_hz, 8192);
+    record::Recorder recorder(info.rate_hz, 8192, false, true);
     ASSERT_TRUE(recorder.start(path, info, &session.bone()).ok());
     session.set_recorder(&recorder);
     edit::PieceStore store;
@@ -417,6 +447,7 @@ TEST(PieceTwoHands, ARecordingReplaysToTheBit) {
   const auto again = replay(**player, std::move(*bone), quiet);
   ASSERT_TRUE(again.ok()) << again.error().text;
   EXPECT_FALSE(again->first_different_tick.has_value()) << again->difference;
+  EXPECT_EQ(again->gaps, 0U) << again->difference;  // to the end
 }
 
 }  // namespace

@@ -9,17 +9,22 @@
 #define STBI_ONLY_PNG
 #include <stb/stb_image.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <iterator>
+#include <thread>
 
 #include "burr/record/player.h"
 #include "burr/record/timeline.h"
 #include "burr/workshop/sound_tracker.h"
 #include "burr/workshop/traces.h"
 #include "sim/commanded.h"
+#include "sim/lifted.h"
 #include "support/folder.h"
 #include "window/replay/playback.h"
 #include "window/replay/replay_page.h"
+#include "window/replay/replay_view.h"
 #include "window/replay/timeline_panel.h"
 #include "window/user.h"
 
@@ -117,6 +122,59 @@ TEST_F(RecordedTool, LeavesItsDust) {
     any = any || tick.irrigated;
   }
   EXPECT_TRUE(any);
+}
+
+// A piece that is out of the bone is in the picture, in the film and in playback.
+TEST_F(RecordedTool, TheLiftedPieceIsShown) {
+  const sim::test::Lifted truth = sim::test::record_lifted(file("lifted"));
+  const auto blue = [](const render::Image& image) {
+    int count = 0;
+    for (std::size_t at = 0; at + 2 < image.rgb.size(); at += 3)
+      count += int{image.rgb[at + 2]} > image.rgb[at] + 40 ? 1 : 0;
+    return count;
+  };
+  const auto picture = [&](double t) {
+    replay("lifted", "--at " + std::to_string(t) + " --view work --picture '" +
+                         (folder_ / "p.png").string() + "'");
+    return read(folder_ / "p.png");
+  };
+  const int behind = blue(picture(truth.before));
+  EXPECT_GT(blue(picture(truth.out[0])), behind + 500);
+  EXPECT_LT(blue(picture(truth.lies)), behind + 20);
+  EXPECT_GT(blue(picture(truth.out[1])), behind + 500);
+  replay("lifted", "--fps 20 --view work --from " + std::to_string(truth.out[0] - 0.1) +
+                       " --until " + std::to_string(truth.lies) + " --film '" +
+                       (folder_ / "film").string() + "'");
+  std::vector<fs::path> film;
+  for (const auto& entry : fs::directory_iterator(folder_ / "film")) film.push_back(entry.path());
+  std::sort(film.begin(), film.end());
+  ASSERT_GT(film.size(), 4U);
+  EXPECT_GT(blue(read(film.front())), behind + 500);
+  EXPECT_LT(blue(read(film.back())), behind + 20);
+
+  NoProgress quiet;
+  auto recorded = open_recorded(file("lifted"), {}, {}, quiet);
+  ASSERT_TRUE(recorded.ok()) << recorded.error().text;
+  const std::size_t softs = recorded->scene.soft.size();
+  ReplayView view(*recorded, true, {});
+  const auto shown_at = [&](double t) {
+    view.want(t);
+    for (int n = 0; n < 3000 && !view.settled(); ++n) {
+      view.look(false, false, false);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_TRUE(view.settled());
+    EXPECT_EQ(view.trouble(), "");
+  };
+  shown_at(truth.before);
+  EXPECT_EQ(recorded->scene.soft.size(), softs);
+  for (const int n : {0, 1, 0}) {
+    shown_at(truth.out[n]);
+    ASSERT_EQ(recorded->scene.soft.size(), softs + 1);
+    EXPECT_LT((recorded->scene.soft.back().box.centre() - truth.at[n].p).norm(), 0.5e-3) << n;
+  }
+  shown_at(truth.lies);
+  EXPECT_EQ(recorded->scene.soft.size(), softs);
 }
 
 TEST_F(RecordedTool, IsInThePictureAndInTheFilm) {

@@ -22,6 +22,8 @@
 #include "burr/sound/wav.h"
 #include "burr/surface/worker.h"
 #include "burr/workshop/opening.h"
+#include "burr/workshop/out_piece.h"
+#include "burr/workshop/piece_look.h"
 #include "burr/workshop/recording.h"
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/seen.h"
@@ -94,6 +96,15 @@ void put_drawn_tool(render::Scene& scene, const record::Step& step, const record
   scene.burr.world_from_tool = held.at(scene, scene.burr.world_from_tool.p, false, seconds);
 }
 
+// A piece that was out of the bone.
+Status put_piece(render::Scene& scene, const tick::TickRow& row, double t,
+                 workshop::OutPieces& pieces, workshop::PieceLook& look, volume::Bone& bone) {
+  const auto piece = pieces.at(row, t, bone);
+  if (!piece) return piece.error();
+  look.put(scene, piece->mesh, piece->by, bone.tissues().tissues.size());
+  return fine();
+}
+
 // Draws the bone and the burr at one moment.
 Status draw(const Options& options, record::Player& player) {
   auto bone = workshop::bone_of(player, options.volume, progress());
@@ -118,6 +129,9 @@ Status draw(const Options& options, record::Player& player) {
   render::HeldTool held;
   workshop::SecondTool second;
   put_drawn_tool(scene, *step, player, false, held, second, 0);
+  workshop::OutPieces pieces(player);
+  workshop::PieceLook look;
+  if (const Status drawn = put_piece(scene, *tick, t, pieces, look, **bone); !drawn) return drawn;
   if (options.effects) {
     render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
     workshop::Traces(player).until(t).show(wound);
@@ -177,6 +191,8 @@ Status film(const Options& options, record::Player& player) {
       as_seen(options) ? player.views() : std::vector<record::View>();
   render::HeldTool held;
   workshop::SecondTool second;
+  workshop::OutPieces pieces(player);
+  workshop::PieceLook look;
   auto reel = FilmFile::open(options.film, options.size, options.fps);
   if (!reel) return reel.error();
   render::Wound wound((*bone)->grid().voxel, render::bleeding_of((*bone)->tissues()));
@@ -200,6 +216,7 @@ Status film(const Options& options, record::Player& player) {
     if (const record::View* seen = workshop::view_at(views, step->row.tick))
       look_as_seen(scene, workshop::camera_of(*seen), view);
     put_drawn_tool(scene, *step, player, true, held, second, 1 / options.fps);
+    if (const Status put = put_piece(scene, step->row, t, pieces, look, **bone); !put) return put;
     Status written = reel->frame(scene);
     if (!written) return written;
   }

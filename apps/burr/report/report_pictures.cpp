@@ -72,6 +72,7 @@ ReportArtist::ReportArtist(Scored& scored)
   towards_ = towards_surgeon(scored.judged.lesson, scored.judged.work);
   sides_ = product_views(cavity_, towards_, scored.judged.work.at);
   views_ = scored.judged.player->views();
+  pieces_.emplace(*scored.judged.player);
 }
 
 Result<std::unique_ptr<ReportArtist>> ReportArtist::make(Scored& scored, Progress& progress) {
@@ -92,8 +93,9 @@ Status ReportArtist::skin(Progress& progress) {
   scene_.tissue_colours = render::colours_of(bone.tissues());
   if (const Status soft = render::add_soft(scene_, bone, progress); !soft) return soft;
   // the last numbers of tissues, if the bone does not use them itself
-  constexpr std::size_t kIds = 256, kOwn = 3;
+  constexpr std::size_t kIds = 256, kOwn = 4;
   if (scene_.tissue_colours.size() + kOwn <= kIds) {
+    scene_.tissue_colours.push_back(workshop::PieceLook::kColour);
     cut_ = static_cast<volume::TissueId>(scene_.tissue_colours.size());
     missed_ = static_cast<volume::TissueId>(cut_ + 1);
     excess_ = static_cast<volume::TissueId>(cut_ + 2);
@@ -289,11 +291,15 @@ Status ReportArtist::moment_of(const scoring::Outcome& outcome, std::size_t room
                       ? camera_of(*seen, tip, kAspect)
                       : render::view_of_work(tip, towards_, 8 * tick->tool.radius + 10e-3);
   workshop::put_tool(scene_, *tick, true);
+  const auto piece = pieces_->at(*tick, t, *scored_.after);
+  if (!piece) return piece.error();
+  piece_.put(scene_, piece->mesh, piece->by, scored_.after->tissues().tissues.size());
   auto view = drawn(kProofWide, kProofHigh,
                     word(seen != nullptr ? Word::report_as_seen : Word::report_from_outside));
   scene_.burr.visible = false;
   scene_.markers.clear();
   scene_.rods.clear();
+  piece_.take_away(scene_);
   if (!view) return view.error();
   out.push_back(std::move(*view));
   if (room < 2) return fine();

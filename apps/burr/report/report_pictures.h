@@ -32,6 +32,8 @@
 #include "burr/render/scene.h"
 #include "burr/render/slice.h"
 #include "burr/surface/worker.h"
+#include "burr/workshop/out_piece.h"
+#include "burr/workshop/piece_look.h"
 #include "report/product_views.h"
 #include "report/report.h"
 #include "report/scored.h"
@@ -85,12 +87,14 @@ class ReportArtist {
                                  std::vector<ReportPicture>& out);
 
   Scored& scored_;
-  math::Vec3 towards_;                                  // from the bone to the surgeon
-  math::Aabb cavity_;                                   // what was removed; empty: nothing
-  std::vector<ProductView> sides_;                      // and the sections
-  render::Scene scene_;                                 // of the bone as it is now
-  std::vector<surface::Patch> plain_;                   // its patches in the tissues' own colours
-  std::vector<bool> painted_;                           // of them: in other colours now
+  math::Vec3 towards_;                         // from the bone to the surgeon
+  math::Aabb cavity_;                          // what was removed; empty: nothing
+  std::vector<ProductView> sides_;             // and the sections
+  render::Scene scene_;                        // of the bone as it is now
+  std::vector<surface::Patch> plain_;          // its patches in the tissues' own colours
+  std::vector<bool> painted_;                  // of them: in other colours now
+  std::optional<workshop::OutPieces> pieces_;  // that were out of the bone
+  workshop::PieceLook piece_;
   volume::TissueId cut_ = 0, missed_ = 0, excess_ = 0;  // colours beyond those of the tissues
   std::vector<record::View> views_;
   std::unique_ptr<surface::Worker> worker_;

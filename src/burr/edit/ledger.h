@@ -17,7 +17,8 @@ struct Ledger {
   double energy = 0;   // spent on cutting  [J]
   double undone = 0;   // of `removed`: brought back by undo and reset, and not redone
   // Lost where pieces were moved; below 0: gained. Resampling changes a little, and where a piece
-  // overlaps other bone, that volume is there only once. Undo takes it back.
+  // overlaps other bone, that volume is there only once. Splinters that suction took count here, too; in the
+  // second hand's own ledger those that its tube took, also after an undo. Undo takes it back.
   double moved = 0;
 };
 

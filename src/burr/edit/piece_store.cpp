@@ -528,6 +528,23 @@ Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMo
   return out;
 }
 
+Result<std::shared_ptr<const MovedBricks>> PieceStore::prepare_splinter(
+    const Bone& bone, const PieceMove& move) const {
+  const volume::PieceFinder finder(bone);
+  const Ijk seed(move.seed[0], move.seed[1], move.seed[2]);
+  const int piece = bone.grid().contains(seed) ? finder.piece_of(seed) : volume::PieceFinder::kNone;
+  if (piece <= 0 || !is_dust(bone, finder, static_cast<std::size_t>(piece)))
+    return error("no splinter lies there any more");
+  const auto kept = take(bone, finder, static_cast<std::size_t>(piece));
+  if (kept == nullptr) return error("no splinter lies there any more");
+  const auto bricks = std::make_shared<MovedBricks>();
+  Work work(bone);
+  take_out(kept->places.front()->prints, work);
+  find_changed(bone, work, *bricks);
+  bricks->writes = move.writes;
+  return std::shared_ptr<const MovedBricks>(bricks);
+}
+
 void PieceStore::accept(const Prepared& prepared) {
   const Ready& ready = *prepared.ready;
   if (ready.number == kept_.size()) kept_.push_back(ready.kept);
@@ -543,7 +560,13 @@ std::optional<PieceStore::Out> PieceStore::out(const Bone& bone) const {
   if (!out_) return {};
   const Kept& kept = *kept_[*out_];
   if (place_of(bone, kept) != nullptr) return {};
-  return Out{*out_, kept.volume, bone.grid().world_from_grid(kept.centre_grid)};
+  return piece(*out_);
+}
+
+std::optional<PieceStore::Out> PieceStore::piece(std::uint32_t number) const {
+  if (number >= kept_.size()) return {};
+  const Kept& kept = *kept_[number];
+  return Out{number, kept.volume, kept.piece->grid().world_from_grid(kept.centre_grid), kept.piece};
 }
 
 std::vector<PieceStore::Moved> PieceStore::moved(const Bone& bone) const {

@@ -73,7 +73,11 @@ class PieceStore {
   // a piece that is too thin to be held.
   [[nodiscard]] Result<Prepared> prepare_lift(const volume::Bone& bone,
                                               const PieceMove& move) const;
-  // The servo has obeyed.
+  // The bricks of the bone without the splinter (is_dust()) in which the move's seed lies: the command
+  // `take_splinter`. Fills in what the bone loses. Error: no splinter lies there any more.
+  [[nodiscard]] Result<std::shared_ptr<const MovedBricks>> prepare_splinter(
+      const volume::Bone& bone, const PieceMove& move) const;
+  // The servo has obeyed. Not of a splinter.
   void accept(const Prepared& prepared);
 
   // A piece that was moved, as it lies in `bone`; none: not where this store put it.
@@ -94,8 +98,11 @@ class PieceStore {
     std::uint32_t number = 0;
     double volume = 0;  // as it came free [m^3]
     math::Vec3 centre = math::Vec3::Zero();
+    std::shared_ptr<const volume::Bone> bone;  // as it came free
   };
   [[nodiscard]] std::optional<Out> out(const volume::Bone& bone) const;
+  // A piece that was moved or lifted, wherever it is now; none: there is none of this number.
+  [[nodiscard]] std::optional<Out> piece(std::uint32_t number) const;
   // What was lifted last has gone back, and was cut, or bone was put on it: it is not out.
   void none_is_out() { out_.reset(); }
   // The bone as if no piece had been moved: each lies again where it came free, also the one that is out.

@@ -1,9 +1,11 @@
 #include "burr/metrics/moment.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "burr/math/sums.h"
+#include "burr/math/turn.h"
 #include "burr/rt/flags.h"
 
 namespace burr::metrics {
@@ -22,7 +24,23 @@ bool feels_shaft(const record::SessionInfo& info) {
   return found != info.numbers.end() && found->second == kShaftMethod;
 }
 
+// Contact may have turned the tool away from the hand.
+math::Quat turn_of_tool(const tick::TickRow& row) {
+  const math::Vec3& turn = row.contact.turn;
+  if (!turn.allFinite()) return row.hand.world_from_tool.q;
+  const double angle = turn.norm();
+  if (!(angle > 0)) return row.hand.world_from_tool.q;
+  return math::product(math::Quat(Eigen::AngleAxisd(angle, math::Vec3(turn / angle))),
+                       row.hand.world_from_tool.q);
+}
+
 }  // namespace
+
+MomentMaker::MomentMaker(double rate_hz, bool shaft_felt,
+                         const std::vector<tool::ShapedTool>& tools)
+    : rate_hz_(rate_hz), shaft_felt_(shaft_felt) {
+  for (const tool::ShapedTool& one : tools) tools_.push_back(tool::places_on_surface(one.tool));
+}
 
 bool MomentMaker::make(const tick::TickRow& row, bool gap, Moment& moment) {
   if (!usable(row)) {
@@ -50,6 +68,12 @@ bool MomentMaker::make(const tick::TickRow& row, bool gap, Moment& moment) {
   moment.power = row.cutting_w;
   moment.twist = math::norm(row.contact.unsent_torque);
   moment.tool = row.tool;
+  const bool shaped = row.tool.number >= 0 && row.tool.number < static_cast<int>(tools_.size());
+  moment.parts = shaped ? &tools_[static_cast<std::size_t>(row.tool.number)] : nullptr;
+  if (shaped) {
+    moment.tool.radius = moment.parts->half_width;
+    moment.turn = turn_of_tool(row);
+  }
   const double rise = removed_ ? row.ledger.removed - *removed_ : 0;
   moment.removed = gap ? 0 : std::max(0.0, rise);
   if (gap) lost_removed_ += std::max(0.0, rise);
@@ -58,7 +82,8 @@ bool MomentMaker::make(const tick::TickRow& row, bool gap, Moment& moment) {
 }
 
 MomentReader::MomentReader(record::Player& player)
-    : maker_(player.info().rate_hz, feels_shaft(player.info())), steps_(player.steps()) {}
+    : maker_(player.info().rate_hz, feels_shaft(player.info()), player.info().tools),
+      steps_(player.steps()) {}
 
 bool MomentReader::next(Moment& moment) {
   bool gap = false;

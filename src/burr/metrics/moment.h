@@ -11,10 +11,14 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "burr/math/pose.h"
 #include "burr/math/vec3.h"
 #include "burr/record/player.h"
 #include "burr/tick/rows.h"
+#include "burr/tool/places.h"
+#include "burr/tool/shaped_tool.h"
 #include "burr/tool/state.h"
 
 namespace burr::metrics {
@@ -42,7 +46,11 @@ struct Moment {
   double speed = 0, asked_speed = 0;  // of the spindle, without its sign; of the pedal [rad/s]
   double torque = 0, power = 0;       // of the bone on the burr [N m]; that goes into the bone [W]
   double twist = 0;                   // torque of the contact that the hand did not get [N m]
-  tool::ToolState tool;
+  tool::ToolState tool;               // radius: of a tool of the rack half its width
+  // A tool of the rack: its cutting parts, and how it is turned about `centre`; nullptr: a round burr. Of the
+  // maker, which must live as long.
+  const tool::Places* parts = nullptr;
+  math::Quat turn = math::Quat::Identity();
   [[nodiscard]] bool cutting() const { return removed > 0; }
   // False: the recording does not say how large the burr is; nothing then has a distance to it.
   [[nodiscard]] bool radius_known() const { return std::isfinite(tool.radius) && tool.radius > 0; }
@@ -52,8 +60,9 @@ struct Moment {
 class MomentMaker {
  public:
   // shaft_felt: the session's round burrs touch with their shafts (--touch shaft).
-  explicit MomentMaker(double rate_hz, bool shaft_felt = false)
-      : rate_hz_(rate_hz), shaft_felt_(shaft_felt) {}
+  // tools: of the session, other than the round burr.
+  explicit MomentMaker(double rate_hz, bool shaft_felt = false,
+                       const std::vector<tool::ShapedTool>& tools = {});
   // False: the tick is unusable. The first tick counts as one that removes nothing.
   [[nodiscard]] bool make(const tick::TickRow& row, bool gap, Moment& moment);
 
@@ -63,6 +72,7 @@ class MomentMaker {
  private:
   double rate_hz_;
   bool shaft_felt_;
+  std::vector<tool::Places> tools_;
   std::optional<double> removed_;  // ledger of the tick before
   std::uint64_t unusable_ = 0;
   double lost_removed_ = 0;

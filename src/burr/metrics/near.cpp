@@ -6,13 +6,31 @@
 
 namespace burr::metrics {
 
+namespace {
+
+// Of the round burr's head, or of the nearest place on the cutting parts of a tool of the rack. Far away it may be
+// less by what the tool reaches.
+double distance_of(const volume::DistanceTo& to, const Moment& now) {
+  constexpr double kExact = 12e-3;  // no measure looks farther [m]
+  const double middle = to.at(now.centre).distance;
+  if (now.parts == nullptr) return middle - now.tool.radius;
+  // where there is no answer for the middle it is farther than the reach
+  if (std::min(middle, to.reach()) - now.parts->reach > kExact) return middle - now.parts->reach;
+  double least = kFar;
+  for (const math::Vec3& on : now.parts->on)
+    least = std::min(least, to.at(now.centre + now.turn * on).distance);
+  return least;
+}
+
+}  // namespace
+
 void Distances::update(const Moment& now) {
   least_ = kNoDistance;
   const bool known = now.radius_known();
   radius_ = radius_ || known;
   for (std::size_t n = 0; n < watched_.size(); ++n) {
     const volume::DistanceTo& to = *watched_[n].distance;
-    d_[n] = known && !to.empty() ? to.at(now.centre).distance - now.tool.radius : kNoDistance;
+    d_[n] = known && !to.empty() ? distance_of(to, now) : kNoDistance;
     if (!std::isnan(d_[n]) && !(least_ <= d_[n])) least_ = d_[n];
   }
 }

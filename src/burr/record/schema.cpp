@@ -500,7 +500,7 @@ constexpr const char* kCommandSchema = R"({
  "type": "object",
  "properties": {
   "tick": {"type": "integer"},
-  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind", "tool", "move_piece", "lift_piece", "shift_piece", "let_go", "leave_piece"]},
+  "kind": {"enum": ["spindle_speed", "burr_radius", "stiffness", "user_force", "tool_mode", "undo", "redo", "reset", "friction", "load", "touch_method", "removal_law", "irrigation", "mirror_i", "mirror_j", "mirror_k", "mirror_off", "burr_kind", "tool", "move_piece", "lift_piece", "shift_piece", "let_go", "leave_piece", "take_splinter"]},
   "value": {"type": ["number", "string"], "description": "spindle_speed rad/s; burr_radius m; stiffness N/m; user_force N; tool_mode 0 cut, 1 add, 2 touch, 3 back to the original, 4 smooth; friction scale; touch_method 0 constraint, 1 thesis, 2 thesis-literal, 3 voxel-springs, 4 samples, 5 triangles, 6 penalty, 7 shaft; removal_law 0 energy, 1 thesis, 2 chips; irrigation 0 off, 1 on; mirror_i, mirror_j, mirror_k place of the plane along that axis of the grid, voxels; burr_kind 0 cutting, 1 diamond; tool number in tools, -1 the round burr; move_piece and lift_piece number of the piece, 0 the first that was moved; \"nan\", \"inf\", \"-inf\" as strings"},
   "piece": {"type": "object", "description": "of move_piece, lift_piece and shift_piece", "properties": {
    "seed": {"type": "array", "items": {"type": "integer"}, "description": "a voxel of the piece where it came free"},
@@ -580,6 +580,8 @@ const char* command_name(tick::CommandKind kind) {
       return "let_go";
     case tick::CommandKind::leave_piece:
       return "leave_piece";
+    case tick::CommandKind::take_splinter:
+      return "take_splinter";
   }
   return "";
 }
@@ -681,7 +683,7 @@ namespace {
 
 bool tells_of_piece(tick::CommandKind kind) {
   return kind == tick::CommandKind::move_piece || kind == tick::CommandKind::lift_piece ||
-         kind == tick::CommandKind::shift_piece;
+         kind == tick::CommandKind::shift_piece || kind == tick::CommandKind::take_splinter;
 }
 
 }  // namespace

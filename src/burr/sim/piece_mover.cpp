@@ -1,10 +1,12 @@
 #include "burr/sim/piece_mover.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "burr/sim/move_pieces.h"
@@ -15,17 +17,53 @@ namespace burr::sim {
 namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(500);
+constexpr auto kLookSucking = std::chrono::milliseconds(150);
 constexpr int kTries = 20;  // to copy the bone between two writes
 // The recorder has every brick by then: a reader of the recording finds the bone that was copied.
 constexpr auto kRest = std::chrono::milliseconds(150);
 
+bool boxes_meet(const volume::Piece& a, const volume::Piece& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
 // The same piece, perhaps cut a little since, or moved.
 bool same(const volume::Piece& a, const volume::Piece& b) {
   constexpr double kAlike = 0.03;  // of the volume: resampling changes a little
-  if ((a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all())
-    return true;
+  if (boxes_meet(a, b)) return true;
   return std::abs(static_cast<double>(a.voxels - b.voxels)) <=
          kAlike * static_cast<double>(std::max(a.voxels, b.voxels));
+}
+
+// Whether a tube draws it in, by the box around it.
+bool may_be_sucked(const volume::Piece& piece, const volume::Grid& grid,
+                   const PieceMover::Suction& by) {
+  const math::Vec3 low = piece.low.cast<double>(), high = piece.high.cast<double>(),
+                   mouth = grid.grid_from_world(by.mouth),
+                   nearest = mouth.cwiseMax(low).cwiseMin(high);
+  if ((nearest - mouth).norm() * grid.voxel > by.reach) return false;
+  std::array<int, 3> side;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    side[axis] = piece.high[static_cast<int>(axis)] - piece.low[static_cast<int>(axis)] + 1;
+  std::sort(side.begin(), side.end());
+  return side[1] * grid.voxel <= 2 * by.bore;
+}
+
+// From the mouth to the nearest voxel that the bone loses by these bricks  [m]
+double distance_to(const math::Vec3& mouth, const volume::Bone& bone,
+                   const edit::MovedBricks& bricks) {
+  const math::Vec3 at = bone.grid().grid_from_world(mouth);
+  double least = std::numeric_limits<double>::infinity();
+  for (const edit::KeptBrick& now : bricks.bricks) {
+    const volume::Field* const was = bone.brick_field(now.brick);
+    if (was == nullptr) continue;
+    const math::Ijk first = bone.brick_ijk(now.brick);
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      if (was[v] < volume::kIso || now.field.voxel[v] >= volume::kIso) continue;
+      const math::Ijk voxel = first + math::Ijk(v & 7, v >> 3 & 7, v >> 6);
+      least = std::min(least, (voxel.cast<double>() - at).norm());
+    }
+  }
+  return least * bone.grid().voxel;
 }
 
 }  // namespace
@@ -55,21 +93,87 @@ void PieceMover::run() {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   known_ = finder_.pieces();
+  for (std::size_t n = 1; n < known_.size(); ++n)
+    if (edit::is_dust(session_.bone(), finder_, n)) old_splinters_.push_back(known_[n]);
   for (;;) {
+    std::optional<Suction> suction;
     std::optional<Wanted> move;
     bool list = false, away = false;
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, kLook, [this] { return stopping_ || list_wanted_ || move_wanted_; });
+      wake_.wait_for(lock, suction_ ? kLookSucking : kLook,
+                     [this] { return stopping_ || list_wanted_ || move_wanted_; });
       if (stopping_) return;
       move = std::exchange(move_wanted_, {});
       list = std::exchange(list_wanted_, false);
       away = away_;
+      if (!splinter_) suction = suction_;
     }
     if (move) prepare(*move);
     if (list) list_pieces();
     if (!move && !list && !away) notice();
+    if (!move && !list && !away && suction) prepare_splinter(*suction);
   }
+}
+
+// The first splinter in reach; the next one in the next look.
+void PieceMover::prepare_splinter(const Suction& by) {
+  if (session_.writes() != seen_) return;  // the finder knows the bone as it is
+  const volume::Grid& grid = session_.bone().grid();
+  const std::vector<volume::Piece>& now = finder_.pieces();
+  for (std::size_t n = 1; n < now.size(); ++n) {
+    const volume::Piece& piece = now[n];
+    if (!edit::is_dust(session_.bone(), finder_, n) || !may_be_sucked(piece, grid, by)) continue;
+    if (std::any_of(old_splinters_.begin(), old_splinters_.end(),
+                    [&](const volume::Piece& old) { return boxes_meet(old, piece); }))
+      continue;
+    const auto copied = copy();
+    if (!copied) return;
+    Splinter splinter;
+    splinter.second = by.second;
+    splinter.move.writes = copied->writes;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      splinter.move.seed[axis] = piece.seed[static_cast<int>(axis)];
+    const auto bricks = edit::PieceStore{}.prepare_splinter(*copied->bone, splinter.move);
+    if (!bricks || (*bricks)->bricks.size() > tick::Restore::kSplinterBricks ||
+        distance_to(by.mouth, *copied->bone, **bricks) > by.reach)
+      continue;
+    splinter.move.bricks = (*bricks)->hash;
+    splinter.bricks = *bricks;
+    const std::lock_guard lock(mutex_);
+    splinter_ = std::move(splinter);
+    return;
+  }
+}
+
+void PieceMover::suck(const std::optional<Suction>& by) {
+  const std::lock_guard lock(mutex_);
+  suction_ = by;
+}
+
+// Sends what has been prepared, and tells when it is taken. One that is refused, because the bone was
+// written meanwhile, is prepared anew.
+std::optional<PieceMover::News> PieceMover::look_at_splinter(bool may_send) {
+  std::optional<News> news;
+  if (sucked_) {
+    const tick::MoveState now = session_.move_state();
+    if (now == tick::MoveState::waiting || now == tick::MoveState::moving) return news;
+    const double voxel = session_.bone().grid().voxel;
+    if (now == tick::MoveState::done)
+      news = News{static_cast<double>(sucked_->bricks->lost) * voxel * voxel * voxel /
+                      static_cast<double>(volume::kVoxelUnits),
+                  true, 1, true};
+    sucked_.reset();
+  }
+  std::optional<Splinter> next;
+  {
+    const std::lock_guard lock(mutex_);
+    next = std::exchange(splinter_, {});
+    if (!suction_) next.reset();  // it was lifted, or stopped
+  }
+  if (next && may_send && session_.take_splinter(next->move, next->second, next->bricks))
+    sucked_ = std::move(next);
+  return news;
 }
 
 // Only when the bone rests: two looks that find the same number of writes.
@@ -254,9 +358,11 @@ std::vector<PieceMover::News> PieceMover::look(const tick::PieceRow& piece) {
   std::vector<News> news;
   {
     const std::lock_guard lock(mutex_);
-    ready = std::exchange(ready_, {});
+    if (!sucked_) ready = std::exchange(ready_, {});
     news = std::exchange(news_, {});
   }
+  const bool free = !ready && !lifted_ && state_ != State::preparing && state_ != State::sent;
+  if (const auto sucked = look_at_splinter(free)) news.push_back(*sucked);
   if (ready) send(*ready);
   if (state_ == State::sent) see_end();
   see_lifted(piece);

@@ -51,10 +51,24 @@ class PieceMover {
     double volume = 0;      // [m^3]
     bool dust = false;      // so small that it is not offered
     std::size_t count = 1;  // of dust: how many at once
+    bool sucked = false;    // no: suction has taken a splinter of this volume
   };
   // Also sends what has been prepared, and notes what became of it. Call it in every picture.
   // piece: of the newest row.
   [[nodiscard]] std::vector<News> look(const tick::PieceRow& piece = {});
+
+  // A tube that draws in, as it is now.
+  struct Suction {
+    math::Vec3 mouth = math::Vec3::Zero();
+    double reach = 0;     // of a splinter's nearest voxel from the mouth  [m]
+    double bore = 0;      // half of how thick a splinter may be, across its longest side  [m]
+    bool second = false;  // of the second hand
+  };
+  static constexpr double kSuctionReach = 3e-3;  // beyond the radius of the tube [m]
+  // Call it before look(); none: nothing draws in. Within about half a second after the bone rests the tube takes the
+  // splinters in its reach, one after the other: those that came free since this object was made. Not while a piece
+  // is out of the bone.
+  void suck(const std::optional<Suction>& by);
 
   // Asks for the list of pieces that may be moved, with their bones.
   void take();
@@ -117,8 +131,16 @@ class PieceMover {
     edit::PieceMove move;
     bool lifts = false;
   };
+  // A splinter that suction takes.
+  struct Splinter {
+    edit::PieceMove move;
+    std::shared_ptr<const edit::MovedBricks> bricks;
+    bool second = false;
+  };
   void run();
   void notice();
+  void prepare_splinter(const Suction& by);
+  [[nodiscard]] std::optional<News> look_at_splinter(bool may_send);
   [[nodiscard]] Result<Copy> copy();
   void list_pieces();
   void prepare(Wanted wanted);
@@ -137,6 +159,7 @@ class PieceMover {
   bool refusal_ = false;
   std::optional<Prepared> under_way_;
   std::optional<Lifted> lifted_;
+  std::optional<Splinter> sucked_;  // sent
 
   mutable std::mutex mutex_;  // of everything below, and of store_
   std::condition_variable wake_;
@@ -146,10 +169,13 @@ class PieceMover {
   std::vector<News> news_;
   std::shared_ptr<const std::vector<edit::PieceStore::Found>> list_;
   std::optional<Result<Prepared>> ready_;
+  std::optional<Suction> suction_;
+  std::optional<Splinter> splinter_;
 
   // of the thread
   std::uint64_t seen_ = 0, seen_before_ = 0;  // writes
   std::vector<volume::Piece> known_;
+  std::vector<volume::Piece> old_splinters_;  // that lay free at the start
   std::thread thread_;
 };
 

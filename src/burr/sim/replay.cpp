@@ -48,6 +48,16 @@ std::optional<edit::PieceStore::Prepared> lay_ready(const edit::PieceStore& piec
   return ready;
 }
 
+// The same of a splinter.
+std::shared_ptr<const edit::MovedBricks> lay_splinter(const edit::PieceStore& pieces,
+                                                      const volume::Bone& bone,
+                                                      const tick::Command& command,
+                                                      tick::Servo& servo) {
+  if (servo.writes_done() != command.move.writes) return nullptr;
+  auto made = pieces.prepare_splinter(bone, command.move);
+  return made && servo.lay_ready(**made) ? *made : nullptr;
+}
+
 // The second hand of the recording.
 struct OtherHand {
   device::ReplayedHand device;
@@ -96,10 +106,13 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
       break;
     }
     std::optional<edit::PieceStore::Prepared> moving;
+    std::shared_ptr<const edit::MovedBricks> splinter;  // of this tick
     for (const tick::Command& command : step.commands) {
       const bool moves = command.kind == tick::CommandKind::move_piece ||
                          command.kind == tick::CommandKind::lift_piece;
       if (moves && !moving) moving = lay_ready(pieces, *bone, command, servo);
+      if (command.kind == tick::CommandKind::take_splinter && !splinter)
+        splinter = lay_splinter(pieces, *bone, command, servo);
       servo.commands().push(command);
     }
     hand.set(step.row.hand);

@@ -142,6 +142,11 @@ bool Session::lift_piece(const edit::PieceMove& move,
               std::move(bricks));
 }
 
+bool Session::take_splinter(const edit::PieceMove& move, bool second,
+                            std::shared_ptr<const edit::MovedBricks> bricks) {
+  return send({tick::CommandKind::take_splinter, second ? 1.0 : 0.0, move}, std::move(bricks));
+}
+
 bool Session::send(const tick::Command& command, std::shared_ptr<const edit::MovedBricks> bricks) {
   BURR_CHECK(bricks != nullptr);
   if (!servo_->lay_ready(*bricks)) return false;

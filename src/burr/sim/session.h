@@ -153,6 +153,9 @@ class Session {
   // The same with `lift_piece`: the piece goes out of the bone, to be held (tick/held_piece.h).
   [[nodiscard]] bool lift_piece(const edit::PieceMove& move,
                                 std::shared_ptr<const edit::MovedBricks> bricks);
+  // The same with `take_splinter`. second: the tube of the second hand takes it.
+  [[nodiscard]] bool take_splinter(const edit::PieceMove& move, bool second,
+                                   std::shared_ptr<const edit::MovedBricks> bricks);
   [[nodiscard]] tick::MoveState move_state() const { return servo_->move_state(); }
   // How often the bone was written (edit/bone_writer.h); any thread.
   [[nodiscard]] std::uint64_t writes() const { return servo_->writes_done(); }

@@ -37,6 +37,8 @@ enum class CommandKind : std::uint8_t {
   shift_piece,  // the lifted piece is wanted there: its centre at move.by, turned by move.turn
   let_go,  // the hand lets go of the lifted piece, and may hold it again once its button was up
   leave_piece,  // the lifted piece goes back to where it lay in the bone
+  take_splinter,  // suction takes a splinter; value: 0 beside the first hand's tool, 1 the second hand's tube;
+                  // the rest is in `move`
 };
 struct Command {
   CommandKind kind = CommandKind::spindle_speed;

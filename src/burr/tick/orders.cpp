@@ -18,7 +18,7 @@ constexpr int kFewMoves = 4;      // of the proxy, when even touch must do with 
 void Orders::take(std::uint64_t tick, std::uint32_t& flags) BURR_RT {
   const auto take = [&](const Command& command) BURR_RT {
     parts_.outbox.note(CommandRow{tick, command});
-    obey(command, flags);
+    if (std::isfinite(command.value)) obey(command, flags);
   };
   if (shed_requested_ != parts_.controls.shed)
     take({CommandKind::shed, static_cast<double>(shed_requested_)});
@@ -32,7 +32,6 @@ void Orders::take(std::uint64_t tick, std::uint32_t& flags) BURR_RT {
 
 void Orders::obey(const Command& command, std::uint32_t& flags) BURR_RT {
   const double value = command.value;
-  if (!std::isfinite(value)) return;
   switch (command.kind) {
     case CommandKind::spindle_speed:
       parts_.cutting.spindle().full_speed = std::clamp(value, -kFastest, kFastest);
@@ -86,6 +85,7 @@ void Orders::obey(const Command& command, std::uint32_t& flags) BURR_RT {
     case CommandKind::lift_piece:
     case CommandKind::let_go:
     case CommandKind::shift_piece:
+    case CommandKind::take_splinter:
       obey_on_piece(command, flags);
       break;
   }
@@ -96,6 +96,8 @@ void Orders::obey_on_piece(const Command& command, std::uint32_t& flags) BURR_RT
     parts_.piece.let_go();
   else if (command.kind == CommandKind::shift_piece)
     shift_piece(command.move);
+  else if (command.kind == CommandKind::take_splinter)
+    parts_.restore.take_splinter(command, flags);
   else
     parts_.restore.begin_move(command, flags);
 }

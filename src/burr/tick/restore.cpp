@@ -126,6 +126,28 @@ void Restore::begin_move(const Command& command, std::uint32_t& flags) BURR_RT {
   move_state_.store(MoveState::moving, std::memory_order_release);
 }
 
+void Restore::take_splinter(const Command& command, std::uint32_t& flags) BURR_RT {
+  const edit::MovedBricks* const splinter = ready_.exchange(nullptr, std::memory_order_acquire);
+  if (splinter == nullptr) return;
+  const bool may = !active() && !lifted_.now && splinter->hash == command.move.bricks &&
+                   command.move.writes == writer_.writes_done() && splinter->body.tool.count == 0 &&
+                   !splinter->bricks.empty() && splinter->bricks.size() <= kSplinterBricks;
+  const bool undoable = !may || splinter->bricks.size() <= undo_.room();
+  if (!undoable) flags |= rt::kFlagUndoFull;
+  if (!may || !undoable) {
+    move_state_.store(MoveState::refused, std::memory_order_release);
+    return;
+  }
+  edit::Account& account = writer_.account();
+  if (undo_.stroke_open()) undo_.end_stroke(account.removed);
+  undo_.begin_stroke(path_end_, account.removed);
+  for (const edit::KeptBrick& brick : splinter->bricks) writer_.put(brick, flags);
+  account.moved += splinter->lost;
+  undo_.end_stroke(account.removed, splinter->lost);
+  if (command.value > 0) taken_by_second_ += splinter->lost;
+  move_state_.store(MoveState::done, std::memory_order_release);
+}
+
 // The brick that comes back, 0 to range_.count.
 const edit::KeptBrick& Restore::kept(std::uint64_t number) const BURR_RT {
   const edit::UndoStore& undo = undo_;

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "burr/edit/bone_writer.h"
@@ -56,6 +57,14 @@ class Restore {
   // ready, there is no room for the piece (kFlagReserve) or to undo it (kFlagUndoFull), something
   // else is in progress, or another piece is lifted.
   void begin_move(const Command& command, std::uint32_t& flags) BURR_RT;
+  // take_splinter: its bricks at once, all in this tick, as a stroke of its own. The tool stays where it is, for bone only
+  // goes away. Refused as above, and where it has more bricks than kSplinterBricks.
+  static constexpr std::size_t kSplinterBricks = 32;
+  void take_splinter(const Command& command, std::uint32_t& flags) BURR_RT;
+  // What suction of the second hand took in this tick  [units]; asked once a tick.
+  [[nodiscard]] std::int64_t taken_by_second() BURR_RT {
+    return std::exchange(taken_by_second_, 0);
+  }
   // A piece is out of the bone, from the command until it is bone again: nothing else writes the bone.
   // The stroke of its lift stays open, so that one undo takes the whole move back.
   [[nodiscard]] bool lifted() const BURR_RT { return lifted_.now; }
@@ -114,6 +123,7 @@ class Restore {
   };
   Lifted lifted_;
   bool back_ = false;  // what is put back is a lifted piece
+  std::int64_t taken_by_second_ = 0;
 };
 
 }  // namespace burr::tick

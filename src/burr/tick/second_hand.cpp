@@ -57,16 +57,27 @@ Vec3 nowhere(const volume::IsoVertices& surface) {
   return surface.bone().grid().world_from_grid(Vec3::Constant(-1e4));
 }
 
+tool::Tool ball_of(double radius) {
+  tool::Tool ball;
+  BURR_CHECK(
+      tool::add_part(ball, {{tool::ShapeKind::ball, 0, 0, 0, radius}, {}, tool::Role::rubs}));
+  return ball;
+}
+
 std::unique_ptr<haptics::ToolTouch> touch_of(const volume::IsoVertices& surface,
                                              const SecondHandSettings& settings,
                                              const ServoSettings& servo) {
-  if (!settings.tool) return nullptr;
   haptics::ProxySettings proxy;
   proxy.slip = settings.slip_m_s / servo.rate_hz;
   proxy.push_out_speed = kRecovery / servo.rate_hz;
   proxy.parts_rub = servo.tool_friction;
   proxy.wedge = servo.wedge;
-  return std::make_unique<haptics::ToolTouch>(surface, settings.tool->tool, proxy, kLever,
+  if (!settings.tool) {
+    proxy.friction_static = proxy.friction_kinetic = settings.friction;
+    proxy.max_moves = kMoves;
+  }
+  const tool::Tool tool = settings.tool ? settings.tool->tool : ball_of(settings.radius);
+  return std::make_unique<haptics::ToolTouch>(surface, tool, proxy, kLever,
                                               math::Pose{nowhere(surface), math::Quat::Identity()});
 }
 
@@ -80,7 +91,8 @@ SecondHand::SecondHand(const Shared& shared, device::Device& device,
       controls_(controls_of(shared.controls, settings_)),
       proxy_(shared.surface, proxy_settings(settings_, controls_.settings.rate_hz),
              nowhere(shared.surface)),
-      tool_(touch_of(shared.surface, settings_, controls_.settings)),
+      tool_(settings_.tool ? touch_of(shared.surface, settings_, controls_.settings) : nullptr),
+      ball_(settings_.tool ? nullptr : touch_of(shared.surface, settings_, controls_.settings)),
       hand_(device, proxy_, controls_.settings.force,
             {.rate_hz = controls_.settings.rate_hz,
              .velocity_filter_hz = settings_.velocity_filter_hz,
@@ -119,16 +131,14 @@ void SecondHand::read(bool lost, bool parted) BURR_RT {
 bool SecondHand::will_carry() BURR_RT {
   const bool holds = piece_.lifted() && piece_.grips(HeldPiece::kSecond, hand_.state(), usable_);
   grabs_ = holds && !holds_;
-  if (holds != holds_) {
-    hand_.lift();
-    if (holds)
-      hand_.use(piece_);
-    else if (tool_)
-      hand_.use(*tool_, tool_.get());
-    else
-      hand_.use(proxy_);
-  }
+  const bool meets = ball_ && piece_.lifted();
+  const bool differs = holds != holds_ || (!holds && meets != meets_);
   holds_ = holds;
+  meets_ = meets;
+  if (differs) {
+    hand_.lift();
+    take_what_is_its_own();
+  }
   if (!holds) return false;
   if (!hand_.engaged()) {
     piece_.grab(hand_.state().world_from_tool);
@@ -137,6 +147,17 @@ bool SecondHand::will_carry() BURR_RT {
   const double mu = beside_.friction();
   piece_.set_friction(mu, session_.settings.kinetic_share * mu);
   return true;
+}
+
+void SecondHand::take_what_is_its_own() BURR_RT {
+  if (holds_)
+    hand_.use(piece_);
+  else if (tool_)
+    hand_.use(*tool_, tool_.get());
+  else if (meets_)
+    hand_.use(*ball_, ball_.get());
+  else
+    hand_.use(proxy_);
 }
 
 bool SecondHand::will_feel() BURR_RT {

@@ -1,7 +1,8 @@
 // tick/second_hand.h - another device in the other hand: with a suction tube, which feels the bone and
 // never changes it, or with any tool of the rack, which touches and cuts as the first hand's does.
 //
-//     no tool   a ball at the tip rests on the bone by the proxy of three unknowns; nothing is cut
+//     no tool   a ball at the tip rests on the bone by the proxy of three unknowns; nothing is cut. While a
+//               piece of bone is out of the bone, the same ball has six, for it meets the piece
 //     a tool    the proxy of six unknowns (haptics/six/tool_touch.h), and a carver of its own; it and
 //               the first hand's tool feel each other (haptics/six/two_tools.h), unless that is felt by
 //               the head alone
@@ -72,6 +73,8 @@ class SecondHand {
   // lost: as Servo::tick(). parted: bone may come back where it is (an undo): the force is released
   // until the hand is in free air again.
   void read(bool lost, bool parted) BURR_RT;
+  // Its suction took a splinter of so many units.
+  void took(std::int64_t units) BURR_RT { own_.moved += units; }
   // Touch of both hands: each alone, or together where their tools are near. feels: the first hand
   // feels in this tick, and has not yet.
   void feel_beside(Hand& first, bool feels) BURR_RT;
@@ -96,6 +99,7 @@ class SecondHand {
 
   [[nodiscard]] bool will_feel() BURR_RT;
   [[nodiscard]] bool will_carry() BURR_RT;
+  void take_what_is_its_own() BURR_RT;
   [[nodiscard]] bool feel_together(Hand& first) BURR_RT;
   [[nodiscard]] bool push_piece() BURR_RT;
 
@@ -105,6 +109,7 @@ class SecondHand {
   Controls controls_;  // this hand's
   haptics::Proxy proxy_;
   std::unique_ptr<haptics::ToolTouch> tool_;  // none: a ball
+  std::unique_ptr<haptics::ToolTouch> ball_;  // the ball where a piece is lifted; none: a tool
   Hand hand_;
   std::unique_ptr<Cutting> cutting_;  // none: it never cuts
   haptics::TwoTools two_;
@@ -113,6 +118,7 @@ class SecondHand {
   const Cutting& beside_;
   Bodies bodies_ = Bodies::tools;
   bool holds_ = false;  // the piece
+  bool meets_ = false;  // a piece is lifted, which the ball meets
   bool grabs_ = false;  // in this tick
   bool waits_ = false;  // its tool, until its button was up
   bool lost_ = false, usable_ = false;

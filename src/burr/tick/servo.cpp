@@ -76,7 +76,11 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   choose_touch();
   note_tool();
   cutting_.turn(usable && !restore_.lifted() ? hand_.state().pedal : 0);
-  if (second_ != nullptr) second_->read(lost, restore_.active());
+  const std::int64_t taken = restore_.taken_by_second();
+  if (second_ != nullptr) {
+    second_->read(lost, restore_.active());
+    second_->took(taken);
+  }
 
   // touch
   const bool feels = will_feel(usable);

@@ -214,6 +214,7 @@ class Mill {
   void draw_rack_panel();
   void look_at_pieces();
   void carry_piece();
+  [[nodiscard]] std::optional<sim::PieceMover::Suction> splinter_suction() const;
   void see_cuts(workshop::LiveSurface& live);
   [[nodiscard]] bool other_hand_carries() const;
   void draw_pieces_panel();
@@ -331,7 +332,8 @@ class Mill {
   Clock::time_point named_{};  // when these two were found, and distances measured
   PinnedLabels pins_;
   ViewTurn view_turn_;
-  std::optional<Menu> menu_;  // which one is open
+  std::optional<Menu> menu_;                      // which one is open
+  static constexpr double kSuctionBeside = 3e-3;  // its reach beyond the burr [m]
   bool suction_ = false;
   Clock::time_point sucked_{};
   std::optional<math::Vec3> through_;  // the slices, where bone was last

@@ -253,8 +253,8 @@ void Mill::see_cuts(workshop::LiveSurface& live) {
   live.see_beside(workshop::wound_tick(*second, servo.rate_hz, {&tool, 1}));
 }
 
-// The tube beside the burr. It takes away water, dust and blood from the picture, and changes no
-// bone.
+// The tube beside the burr. It takes away water, dust and blood from the picture, and splinters from the bone
+// (mill_pieces.cpp).
 void Mill::toggle_suction() {
   suction_ = !suction_;
   sucked_ = Clock::now();
@@ -262,12 +262,12 @@ void Mill::toggle_suction() {
 }
 
 void Mill::suck(workshop::LiveSurface& live) {
-  constexpr double kBeside = 3e-3, kMost = 0.1;  // beyond the burr [m]; of one picture [s]
+  constexpr double kMost = 0.1;  // of one picture [s]
   const double seconds =
       std::chrono::duration<double>(Clock::now() - std::exchange(sucked_, Clock::now())).count();
   if (suction_ && desk_.settings.effects)
     live.suck(scene_.burr.world_from_tool.p,
-              (grip_.burr() ? scene_.burr.radius : grip_.reach()) + kBeside,
+              (grip_.burr() ? scene_.burr.radius : grip_.reach()) + kSuctionBeside,
               std::min(seconds, kMost));
 }
 

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "burr/workshop/second_tool.h"
+#include "burr/workshop/suction_hand.h"
 #include "window/mill/mill.h"
 #include "window/shell/words.h"
 
@@ -24,9 +26,29 @@ PieceMode::Carrier carrier(const tick::TickRow& row, const device::DeviceSpec& d
 
 void Mill::look_at_pieces() {
   const bool open = menu_ == Menu::pieces;
+  pieces_->suck(splinter_suction());
   note(pieces_->look(open, row_));
   carry_piece();
   pieces_->show(scene_, open);
+}
+
+// The tube of the other hand, or the one beside the tool (key 6): it takes splinters where it takes water.
+std::optional<sim::PieceMover::Suction> Mill::splinter_suction() const {
+  using workshop::SuctionHand;
+  if (has_piece()) return {};
+  sim::PieceMover::Suction by;
+  if (hands_.suction != nullptr && workshop::sucks(hands_.suction->now())) {
+    const tick::TickRow& row = hands_.suction->now();
+    by = {row.contact.proxy, row.tool.radius + sim::PieceMover::kSuctionReach, row.tool.radius,
+          true};
+    return by;
+  }
+  if (!suction_) return {};
+  by.mouth = scene_.burr.world_from_tool.p;
+  by.reach = (grip_.burr() ? scene_.burr.radius : grip_.reach()) + kSuctionBeside +
+             sim::PieceMover::kSuctionReach;
+  by.bore = SuctionHand::kRadius;
+  return by;
 }
 
 // The button that drives a tool carries the piece. Meanwhile the tool of the first hand stands

@@ -11,7 +11,6 @@
 
 #include "burr/math/turn.h"
 #include "burr/rt/flags.h"
-#include "burr/surface/mesher.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -22,8 +21,7 @@ using math::Quat;
 using math::Vec3;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr render::Colour kFrame = {0.95F, 0.70F, 0.12F}, kGhost = {0.34F, 0.71F, 0.91F};
-constexpr std::size_t kMostColours = 256;
+constexpr render::Colour kFrame = {0.95F, 0.70F, 0.12F};
 
 constexpr double kAround =
     1.5;  // the frame lies so far outside of the outermost voxels' middles [voxels]
@@ -45,31 +43,6 @@ std::array<Vec3, 2> box_of(const volume::Bone& piece) {
   return {Vec3(low.array() - kAround), Vec3(high.array() + kAround)};
 }
 
-std::shared_ptr<const render::CoarseMesh> mesh_of(const volume::Bone& piece) {
-  NoProgress quiet;
-  const auto surface = surface::whole_surface(piece, 1, quiet);
-  if (!surface) return nullptr;
-  render::JoinedMesh all;
-  all.add(render::SkinMesh(*surface));
-  auto mesh = std::make_shared<render::CoarseMesh>();
-  mesh->vertices = std::move(all.vertices);
-  mesh->levels = {{0, std::move(all.triangles)}};
-  return mesh;
-}
-
-// The mesh at another place, in one colour.
-std::shared_ptr<const render::CoarseMesh> moved(const render::CoarseMesh& mesh, const Pose& by,
-                                                volume::TissueId colour) {
-  auto out = std::make_shared<render::CoarseMesh>(mesh);
-  for (render::SkinVertex& vertex : out->vertices) {
-    const Vec3 n = by.q * render::normal_of(vertex).cast<double>();
-    vertex.p = (by * vertex.p.cast<double>()).cast<float>();
-    vertex.rest = render::folded(n.cast<float>(), colour);
-    vertex.under = 0;
-  }
-  return out;
-}
-
 constexpr double kLeastNewsMm3 = 0.05;
 
 double degrees_of(const Quat& q) { return math::rotation_vector(q).norm() / kDegree; }
@@ -84,8 +57,9 @@ std::string PieceMode::look(bool open, const tick::TickRow& row) {
   held_ = row.piece;
   for (const sim::PieceMover::News& news : mover_.look(row.piece)) {
     if (news.dust && news.volume < kLeastNewsMm3 * 1e-9) continue;  // it would read as 0.0 mm³
-    text = news.dust ? say(Word::piece_dust, news.count, 1e9 * news.volume)
-                     : say(Word::piece_free, 1e9 * news.volume);
+    text = news.sucked ? say(Word::piece_sucked, 1e9 * news.volume)
+           : news.dust ? say(Word::piece_dust, news.count, 1e9 * news.volume)
+                       : say(Word::piece_free, 1e9 * news.volume);
   }
   const sim::PieceMover::State state = mover_.state();
   if (putting_ && state == sim::PieceMover::State::put) {
@@ -144,7 +118,6 @@ void PieceMode::follow() {
     want();  // it was moved while it was still on its way out
     return;
   }
-  taken.stale = taken.stale || by != taken.by || further.coeffs() != taken.turn.coeffs();
   taken.by = by;
   taken.turn = further;
 }
@@ -152,7 +125,7 @@ void PieceMode::follow() {
 // The piece goes where it was wanted, as far as the bone lets it.
 void PieceMode::want() {
   Taken& taken = *taken_;
-  taken.stale = taken.asked = true;
+  taken.asked = true;
   if (!taken.lifts || !out()) return;
   const Pose to = pose_of(taken);
   mover_.shift({to * taken.piece.centre, to.q});
@@ -192,7 +165,7 @@ void PieceMode::take(std::size_t row) {
   Taken taken;
   taken.piece = (*list_)[row];
   taken.row = row;
-  taken.plain = mesh_of(*taken.piece.bone);
+  taken.mesh = workshop::mesh_of_piece(*taken.piece.bone);
   if (lesson_ != nullptr) taken.plan = workshop::plan_of(*lesson_, *taken.piece.bone);
   taken.lifts = mover_.lift(taken.piece);
   taken_ = std::move(taken);
@@ -303,25 +276,12 @@ void PieceMode::show(render::Scene& scene, bool shown) {
   std::erase_if(scene.rods,
                 [this](const render::Rod& rod) { return line_ > 0 && rod.radius == line_; });
   line_ = 0;
-  if (std::exchange(ghost_drawn_, false)) scene.soft.resize(softs_);
+  ghost_.take_away(scene);
   if (!shown || !list_) return;
   line_ = 0.00121 * scene.camera.view_height();
   for (const edit::PieceStore::Found& piece : *list_) frame(scene, piece, line_);
-  if (!taken_ || taken_->plain == nullptr) return;
-  const std::size_t colour = session_.bone_tissues().tissues.size();
-  if (colour >= kMostColours) return;
-  scene.tissue_colours.resize(colour + 1);
-  scene.tissue_colours[colour] = kGhost;
-  if (std::exchange(taken_->stale, false))
-    taken_->ghost = moved(*taken_->plain, pose_of(*taken_), static_cast<volume::TissueId>(colour));
-  render::SoftStructure ghost;
-  ghost.tissue = static_cast<volume::TissueId>(colour);
-  ghost.mesh = taken_->ghost;
-  for (const render::SkinVertex& vertex : ghost.mesh->vertices)
-    ghost.box.extend(vertex.p.cast<double>());
-  softs_ = scene.soft.size();
-  scene.soft.push_back(std::move(ghost));
-  ghost_drawn_ = true;
+  if (taken_)
+    ghost_.put(scene, taken_->mesh, pose_of(*taken_), session_.bone_tissues().tissues.size());
 }
 
 }  // namespace burr::app

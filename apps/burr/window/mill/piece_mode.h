@@ -17,6 +17,7 @@
 #include "burr/render/scene.h"
 #include "burr/scenario/lesson.h"
 #include "burr/sim/piece_mover.h"
+#include "burr/workshop/piece_look.h"
 #include "burr/workshop/piece_plan.h"
 #include "window/mill/pieces_panel.h"
 
@@ -35,6 +36,9 @@ class PieceMode {
   [[nodiscard]] std::string look(bool open, const tick::TickRow& row = {});
   // Draws the frames of the free pieces, and the ghost of the one under way. shown: the panel is open.
   void show(render::Scene& scene, bool shown);
+
+  // Before look(): a tube that draws in splinters; none: nothing does.
+  void suck(const std::optional<sim::PieceMover::Suction>& by) { mover_.suck(by); }
 
   [[nodiscard]] bool taken() const { return taken_.has_value(); }
   void take(std::size_t row);
@@ -72,10 +76,8 @@ class PieceMode {
     math::Vec3 by = math::Vec3::Zero();        // further, from where it lies now
     math::Quat turn = math::Quat::Identity();  // further
     const scenario::PlannedPiece* plan = nullptr;
-    std::shared_ptr<const render::CoarseMesh> plain;  // where it came free
-    std::shared_ptr<const render::CoarseMesh> ghost;  // where it is drawn
-    bool stale = true;                                // the ghost
-    struct Grip {                                     // when the hand grabbed
+    std::shared_ptr<const render::CoarseMesh> mesh;  // where it came free
+    struct Grip {                                    // when the hand grabbed
       math::Vec3 hand = math::Vec3::Zero(), by = math::Vec3::Zero();
       math::Quat held = math::Quat::Identity(), turn = math::Quat::Identity();
       int which = 0;
@@ -103,9 +105,8 @@ class PieceMode {
   tick::PieceRow held_;  // of the newest row
   std::uint64_t listed_writes_ = 0;
   std::optional<Taken> taken_;
-  double line_ = 0;        // radius of the frames' rods; 0: none drawn
-  std::size_t softs_ = 0;  // soft structures of the bone itself
-  bool ghost_drawn_ = false;
+  double line_ = 0;  // radius of the frames' rods; 0: none drawn
+  workshop::PieceLook ghost_;
 };
 
 }  // namespace burr::app

@@ -11,6 +11,7 @@
 #include "burr/render/camera.h"
 #include "burr/render/soft_scene.h"
 #include "burr/workshop/live_surface.h"
+#include "burr/workshop/piece_look.h"
 #include "burr/workshop/recording.h"
 #include "window/shell/words.h"
 #include "window/start/sessions.h"
@@ -57,6 +58,7 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   out.notices = out.player->notices();
 
   out.scene.tissue_colours = render::colours_of(out.bone->tissues());
+  out.scene.tissue_colours.push_back(workshop::PieceLook::kColour);
   if (const Status soft = render::add_soft(out.scene, *out.bone, progress); !soft)
     return soft.error();
   out.worker = std::make_unique<surface::Worker>(*out.bone, 1);
@@ -86,6 +88,7 @@ Playback::Playback(Recorded& recorded)
     : player_(*recorded.player),
       bone_(*recorded.bone),
       traces_(player_),
+      pieces_(player_),
       thread_([this] { work(); }) {}
 
 Playback::~Playback() {
@@ -143,6 +146,10 @@ void Playback::work() {
       shown.trouble = there.error().text;
     else if (!step)
       shown.trouble = step.error().text;
+    else if (auto piece = pieces_.at(step->row, shown.t, bone_); piece)
+      shown.piece = std::move(*piece);
+    else
+      shown.trouble = piece.error().text;
     shown.changes = traces_.seek(shown.t);
     lock.lock();
     working_ = false;

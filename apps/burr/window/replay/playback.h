@@ -28,6 +28,7 @@
 #include "burr/sim/session_words.h"
 #include "burr/surface/worker.h"
 #include "burr/volume/bone.h"
+#include "burr/workshop/out_piece.h"
 #include "burr/workshop/traces.h"
 #include "window/replay/film_job.h"
 
@@ -65,6 +66,7 @@ class Playback {
     double t = 0;                         // the requested moment  [s]
     tick::TickRow row;                    // the last tick before that moment
     std::optional<tick::TickRow> second;  // of the other hand
+    workshop::OutPiece piece;             // of bone that was out of the bone then
     std::string trouble;                  // "": the bone is as it was then; otherwise why not
     workshop::Traces::Changes changes;    // since the last take()
   };
@@ -94,6 +96,7 @@ class Playback {
   record::Player& player_;
   volume::Bone& bone_;
   workshop::Traces traces_;
+  workshop::OutPieces pieces_;
   mutable std::mutex mutex_;
   std::condition_variable wanted_changed_;
   double wanted_ = 0;

@@ -38,6 +38,7 @@ ReplayView::ReplayView(Recorded& recorded, bool software, const render::Governor
 }
 
 ReplayView::~ReplayView() {
+  piece_.take_away(scene());
   scene().tissue_colours = colours_;
   scene().look.opacity = 1;
   live_.look_plain();
@@ -80,6 +81,8 @@ void ReplayView::look(bool effects, bool playing, bool left_handed) {
   Playback::Early early;
   if (playback_.take_early(early)) values_ = early;
   known_ = in_time(values_.t, wanted_, playing);
+  // in every picture: the colours of the scene may be others than in the last one
+  piece_.put(scene(), shown_.piece.mesh, shown_.piece.by, recorded_.bone->tissues().tissues.size());
   if (scene().burr.visible && shown_.row.tool.radius > 0) lean_tool(left_handed);
   trouble_ = !shown_.trouble.empty()      ? shown_.trouble
              : !recorded_.notices.empty() ? recorded_.notices.front()

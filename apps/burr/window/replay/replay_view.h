@@ -17,6 +17,7 @@
 #include "burr/render/held_tool.h"
 #include "burr/tool/state.h"
 #include "burr/workshop/live_surface.h"
+#include "burr/workshop/piece_look.h"
 #include "burr/workshop/second_tool.h"
 #include "window/mill/slices.h"
 #include "window/replay/playback.h"
@@ -89,6 +90,7 @@ class ReplayView {
   std::string trouble_;
   render::HeldTool held_;
   workshop::SecondTool second_;  // of the other hand
+  workshop::PieceLook piece_;    // of bone that is out of the bone
   std::chrono::steady_clock::time_point leaned_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point in_time_ = std::chrono::steady_clock::now();
   Playback playback_;  // last: its thread ends before the other members

@@ -43,6 +43,8 @@ std::string letter_of(const tick::Command& command) {
     case tick::CommandKind::lift_piece:
     case tick::CommandKind::leave_piece:
       return "M";
+    case tick::CommandKind::take_splinter:
+      return "6";
     default:
       return "F2";
   }
@@ -346,6 +348,8 @@ std::string command_text(const record::TimelineEvent& event) {
       return word(Word::piece_take);
     case tick::CommandKind::leave_piece:
       return word(Word::piece_leave);
+    case tick::CommandKind::take_splinter:
+      return word(Word::replay_splinter);
     default:
       return word(Word::replay_setting);
   }
