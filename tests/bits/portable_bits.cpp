@@ -1,6 +1,7 @@
-// Touches and mills a ball of bone, and prints for each path the hash of the last tick, which
-// stands for all of them, and of the bone that is left. Needs burr_core alone, so that it can be
-// built for other processors and for a browser; scripts/checks/portable.sh compares the lines.
+// Touches and mills a ball of bone with a round burr, and with tools of other shapes on the last path,
+// and prints for each the hash of the last tick, which stands for all of them, and of the bone that is
+// left. Needs burr_core alone, so that it can be built for other processors and for a browser;
+// scripts/checks/portable.sh compares the lines.
 //
 //     portable_bits PATHS            PATHS: tests/bits/portable_paths.txt
 //     portable_bits --make >PATHS    the paths; by sin and cos, which differ between C libraries in
@@ -22,6 +23,7 @@
 #include "burr/base/progress.h"
 #include "burr/device/simulated_hand.h"
 #include "burr/tick/servo.h"
+#include "burr/tool/shaped_tool.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
 
@@ -30,7 +32,7 @@ namespace {
 using namespace burr;
 using math::Vec3;
 
-constexpr int kTicks = 3000;
+constexpr int kTicks = 3000, kToolTicks = 1500;
 constexpr double kBall = 12e-3, kBurr = 2e-3;  // radii  [m]
 
 struct Scene {
@@ -128,18 +130,52 @@ std::vector<Scene> read_paths(const char* file) {
   return scenes;
 }
 
-void replay(const Scene& scene) {
+// A tool of each drive and of each way to compute a distance, heads of about the burr's size.
+std::vector<tool::ShapedTool> tools() {
+  using tool::ShapeKind;
+  const auto made = [](const char* name, const tool::Shape& head, const tool::Cutter& cutter) {
+    tool::ShapedTool one{name, {}, cutter};
+    if (!tool::add_part(one.tool, {head, {}, tool::Role::cuts}) ||
+        !tool::add_part(one.tool, {{ShapeKind::capsule, 0, 0, 8e-3, 1e-3},
+                                   {Vec3(0, 0, 11e-3), math::Quat::Identity()},
+                                   tool::Role::rubs}))
+      give_up("no body:", name);
+    return one;
+  };
+  using tool::Drive;
+  const tool::Cutter turns{.drive = Drive::turning};
+  const tool::Cutter strokes{
+      .drive = Drive::oscillating, .amplitude_m = 0.5e-3, .cycles_hz = 200, .way = Vec3::UnitY()};
+  const tool::Cutter pushed{.drive = Drive::pushed, .way = Vec3::UnitY()};
+  return {made("flame", {ShapeKind::vesica, 1.4e-3, 0, 3e-3, 0.4e-3}, turns),
+          made("wheel", {ShapeKind::cylinder, 1.8e-3, 0, 0.5e-3, 0.2e-3}, turns),
+          made("cone", {ShapeKind::frustum, 0.8e-3, 1.6e-3, 2e-3, 0.2e-3}, turns),
+          made("trephine", {ShapeKind::tube, 2e-3, 1.4e-3, 2e-3, 0.3e-3}, turns),
+          made("saw", {ShapeKind::box, 0.3e-3, 2e-3, 2e-3, 0.1e-3}, strokes),
+          made("chisel", {ShapeKind::wedge, 0.8e-3, 2e-3, 3e-3, 0.2e-3}, pushed),
+          made("curette", {ShapeKind::half_shell, 1.8e-3, 0.2e-3, 0, 0.3e-3}, pushed)};
+}
+
+// number: of the tool; -1: the round burr
+void replay(const Scene& scene, int number = -1) {
   const auto bone = ball();
   NoProgress quiet;
   volume::IsoVertices surface(*bone, {}, 1, quiet);
-  device::SimulatedHand hand(scene.path, {});
+  device::HandPath path = scene.path;
+  if (number >= 0)  // a tool stands on the bone, its handle away from it
+    for (auto& point : path.points) point.world_from_tool.q = math::Quat(0.8, 0, 0.6, 0);
+  device::SimulatedHand hand(path, {});
   if (!hand.open()) give_up("no points:", scene.name.c_str());
   tick::ServoSettings settings;
   settings.burr.radius = kBurr;
+  if (number >= 0) {
+    settings.tools = tools();
+    settings.tool = number;
+  }
   tick::Servo servo(*bone, surface, hand, settings);
   const tick::TickRow* row = nullptr;
   int touching = 0;
-  for (int n = 0; n < kTicks; ++n) {
+  for (int n = 0; n < (number < 0 ? kTicks : kToolTicks); ++n) {
     row = &servo.tick(false);
     touching += row->contact.touching ? 1 : 0;
     servo.publish();
@@ -147,7 +183,9 @@ void replay(const Scene& scene) {
     bone->commit_ahead();
     surface.commit_ahead();
   }
-  std::printf("%s %016llx %016llx touching %d removed_mm3 %.6f\n", scene.name.c_str(),
+  std::printf("%s%s%s %016llx %016llx touching %d removed_mm3 %.6f\n", scene.name.c_str(),
+              number < 0 ? "" : "-",
+              number < 0 ? "" : settings.tools[static_cast<std::size_t>(number)].name.c_str(),
               static_cast<unsigned long long>(row->hash),
               static_cast<unsigned long long>(bone->content_hash()), touching,
               1e9 * row->ledger.removed);
@@ -159,7 +197,10 @@ int main(int argc, char** argv) {
   if (argc == 2 && std::string_view(argv[1]) == "--make") {
     make_paths();
   } else if (argc == 2) {
-    for (const Scene& scene : read_paths(argv[1])) replay(scene);
+    const std::vector<Scene> scenes = read_paths(argv[1]);
+    for (const Scene& scene : scenes) replay(scene);
+    for (int number = 0; number < static_cast<int>(tools().size()); ++number)
+      replay(scenes.back(), number);
   } else {
     give_up("usage: portable_bits PATHS, or", "--make");
   }
