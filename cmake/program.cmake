@@ -44,7 +44,7 @@ if(BURR_APP)
   add_executable(burr_program ${BURR_APP} ${CMAKE_BINARY_DIR}/page_files.cpp)
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
   burr_of_program(burr_program <CLI/CLI.hpp>)
-  target_link_libraries(burr_program PRIVATE burr_app)
+  target_link_libraries(burr_program PRIVATE burr_app OpenSSL::Crypto)
   if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ compiles too
     add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program>)
   endif()

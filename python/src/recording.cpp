@@ -281,7 +281,8 @@ void add_recording(py::module_& module) {
   recording.def("__len__", [](const Recording& self) {
     return self.player().end_tick() - self.player().first_tick();
   });
-  recording.def("commands", &Recording::commands, "What was asked of the session, in order.");
+  recording.def("commands", &Recording::commands,
+                "The commands that the session received, in order.");
   recording.def("before", &Recording::before, py::kw_only(), "progress"_a = py::none(),
                 "The bone before the first tick.");
   recording.def("bone", &Recording::bone, "t"_a = py::none(), py::kw_only(),

@@ -30,7 +30,7 @@ struct ProductQueue {
 // The recording of a session, on this computer and with the SHA-1 that it had when it came into the store.
 [[nodiscard]] Result<std::string> recording_of(school::Store& store, const std::string& session);
 
-// What a rater is asked about a product. The way there cannot be seen in it, so items of the process are left out.
+// The items that a rater marks on a product. Items of the process are left out, since a finished product does not show how it was made.
 struct ProductItem {
   std::string id;
   std::map<std::string, std::string>

@@ -19,7 +19,8 @@ namespace burr::app {
 // given: what --store says; empty: BURR_STORE, or the file in burr's data folder.
 [[nodiscard]] Result<school::StorePlace> store_place(const std::string& given);
 
-// A file with a slip in its name is no new store. Error, Trouble::usage: no such file. A server is asked when it is opened.
+// Error, Trouble::usage: the file does not exist; burr makes no new store, since the name may be mistyped. Whether a server answers is
+// found when the store is opened.
 [[nodiscard]] Status check_store_is_there(const school::StorePlace& place);
 
 // Opens it and makes none; says its notices on stderr.

@@ -186,7 +186,7 @@ std::filesystem::path launches_folder() { return users_places().state / "cmi5"; 
 void tell_waiting_launches() {
   const lrs::ToldLater told = lrs::tell_waiting(launches_folder());
   if (told.launches > 0)
-    fmt::print(stderr, "{} that waited: the learning management system was told\n",
+    fmt::print(stderr, "{} kept from earlier were sent to the learning management system\n",
                told.launches == 1 ? "1 launch" : fmt::format("{} launches", told.launches));
   for (const std::string& line : told.notices) fmt::print(stderr, "{}\n", line);
 }

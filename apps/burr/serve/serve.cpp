@@ -125,7 +125,7 @@ Status run(const Options& options) {
   Stations stations;
   RatingDesk desk(**store);
   school::PracticeMemo memo;
-  // its curves are fitted before anybody waits for the first page; what goes wrong here is said by that page
+  // the learners' curves are fitted now, so that the first page is fast; if this fails, that page reports the error
   static_cast<void>(school::practice(**store, "", &memo));
   serve::Door door = options.door;
   door.port = static_cast<unsigned short>(options.port);
