@@ -536,7 +536,8 @@ def cmi5_waits(centre):
     centre.run("learner", "take-in", **state)  # still away: it waits on
     same(files[0].read_text(), kept, "what waits")
     centre.lrs.faults.clear()
-    assert "was told" in centre.run("learner", "take-in", **state).stderr
+    said = centre.run("learner", "take-in", **state).stderr
+    assert "1 launch kept from earlier" in said, said
     told = [one for one, _ in centre.lrs.statements()]
     same([one["verb"]["id"] for one in told], [VERBS + v for v in ("initialized", "completed", "terminated")], "verbs")
     same(sorted(one["timestamp"] for one in told), [one["timestamp"] for one in told], "times")
