@@ -25,7 +25,7 @@ set(with_threads "tests/(rt|device)/|(window/window|window/pages|sound/voice|sou
 # but not beside each other. On two cores with a load of 9 all of them passed, slowed down by a sanitizer. They start
 # early (COST), so that at the end no core waits for them.
 set(alone_but_window Cap Grip Tools/Rack RackOfASession Directions ExportPieces ExportRequest Film Greys HandPlane Hands ImportDoubts ImportWindow LabelTable Measuring Memory MirrorWords Planes Steps Technique
-  Bones/Hover HoverHand TypedPath PrebuiltPhantom Preview PrintedKeys Questions Region Scores StatusLine Words Work SavedViewsFile SettingsFile)
+  Bones/Hover HoverHand TypedPath PrebuiltPhantom Preview PrintedKeys Questions RateWindow Region Scores StatusLine Words Work SavedViewsFile SettingsFile)
 set(manner_window RUN_SERIAL TRUE)
 set(manner_device RESOURCE_LOCK clock COST 45)
 set(alone_but_device OmegaTest MappedHand HaplyMessage CrtkNames CrtkReading PolhemLine PolhemPorts ListingTest TouchTest

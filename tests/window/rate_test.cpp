@@ -16,6 +16,7 @@
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
 #include "school/products.h"
+#include "support/made_once.h"
 #include "user.h"
 
 namespace burr::app {
@@ -26,24 +27,25 @@ constexpr const char* kRater = "A. Berg";
 class RateWindow : public Window {
  protected:
   // Two products of one learner: blocks that scripted surgeons milled, as `burr` itself enters them.
-  static void SetUpTestSuite() {
-    products_ = std::make_unique<test::Folder>();
-    const std::string folder = products_->path().string();
-    const std::string store = " --store '" + folder + "/school.sqlite'";
-    command("learner add --id kestrel-27 --level PGY2 --name 'Nora Nyberg'" + store);
-    for (const char* n : {"1", "2"}) {
-      const std::string file = "'" + folder + "/kestrel-27 " + n + ".mcap'";
-      command("surgeon block --level average --seed " + std::string(n) +
-              " --learner kestrel-27 --attempt " + n + " --record " + file);
-      command("learner enter kestrel-27 " + file + store);
+  static bool make_products(const fs::path& folder) {
+    const std::string store = " --store '" + (folder / "school.sqlite").string() + "'";
+    bool fine = command("learner add --id kestrel-27 --level PGY2 --name 'Nora Nyberg'" + store);
+    for (const std::string& n : std::vector<std::string>{"1", "2"}) {
+      const std::string file = "'" + (folder / ("kestrel-27 " + n + ".mcap")).string() + "'";
+      fine = fine &&
+             command("surgeon block --level average --seed " + n +
+                     " --learner kestrel-27 --attempt " + n + " --record " + file) &&
+             command("learner enter kestrel-27 " + file + store);
     }
+    return fine;
   }
-  static void TearDownTestSuite() { products_.reset(); }
   void SetUp() override {
     Window::SetUp();
     if (!desk_) return;
+    const fs::path products = test::made_once("rate_products", make_products);
+    ASSERT_FALSE(products.empty());
     const fs::path store = folder_ / "school.sqlite";
-    fs::copy_file(products_->path() / "school.sqlite", store);
+    fs::copy_file(products / "school.sqlite", store);
     desk_->store = store.string();
     const auto place = school::place_of(desk_->store, desk_->places());
     ASSERT_TRUE(place) << place.error().text;
@@ -52,15 +54,17 @@ class RateWindow : public Window {
     store_ = std::move(*opened);
     ASSERT_EQ(sessions().size(), 2U) << "the test shows nothing";
   }
-  static void command(const std::string& words) {
+  static bool command(const std::string& words) {
     const std::string line =
         "'" + std::string(BURR_BUILD_DIR) + "/burr' --quiet " + words + " 2>&1";
     std::string said;
     FILE* out = ::popen(line.c_str(), "r");
-    ASSERT_NE(out, nullptr);
+    if (out == nullptr) return false;
     std::array<char, 4096> some{};
     while (std::fgets(some.data(), some.size(), out) != nullptr) said += some.data();
-    ASSERT_EQ(::pclose(out), 0) << words << ": " << said;
+    const int code = ::pclose(out);
+    EXPECT_EQ(code, 0) << words << ": " << said;
+    return code == 0;
   }
   [[nodiscard]] std::vector<school::SessionRow> sessions() {
     const auto rows = school::sessions_of(*store_, "");
@@ -117,10 +121,8 @@ class RateWindow : public Window {
     };
   }
 
-  static std::unique_ptr<test::Folder> products_;
   std::unique_ptr<school::Store> store_;
 };
-std::unique_ptr<test::Folder> RateWindow::products_;
 
 TEST_F(RateWindow, ARaterSeesTheProductAndMarksItByKeys) {
   const auto queue = products_here(*store_, kRater, "", 7);
