@@ -55,7 +55,7 @@ list(APPEND idle ${src}/edit/tool_body.cpp ${src}/edit/mirror.cpp ${src}/edit/br
   ${src}/tick/held_piece.cpp ${src}/tick/mirror_plane.cpp ${src}/tick/shaped_cutting.cpp ${src}/tool/shape_grid.cpp
   ${src}/tool/grid_of_mesh.cpp ${src}/tool/tool.cpp)
 set_source_files_properties(${idle} PROPERTIES COMPILE_OPTIONS "-Oz")
-burr_web_parts(burr_page_parts ${render} ${hands} ${src}/workshop/work_view.cpp)
+burr_web_parts(burr_page_parts ${render} ${hands} ${src}/workshop/work_view.cpp ${src}/workshop/piece_look.cpp)
 target_compile_options(burr_page_parts PRIVATE -Oz)
 
 # what stands in place of sources of the rooms (*_web.cpp), and what JavaScript calls
@@ -73,7 +73,8 @@ target_link_options(burr_page PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -
 set(web_dir ${PROJECT_SOURCE_DIR}/web)
 add_executable(burr_replay ${web_dir}/replay/replay_api.cpp ${web_dir}/bone_api.cpp ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp
   ${web_dir}/unzstd.cpp ${web_dir}/whole_chunks_web.cpp ${web_dir}/no_cases_web.cpp ${web_dir}/coarse_mesh_web.cpp
-  ${src}/render/soft_scene.cpp ${src}/render/skin_mesh.cpp)
+  ${src}/render/soft_scene.cpp ${src}/render/skin_mesh.cpp ${src}/render/tool_mesh.cpp ${src}/workshop/out_piece.cpp
+  ${src}/workshop/piece_look.cpp ${src}/workshop/tool_looks.cpp)
 target_include_directories(burr_replay PRIVATE ${web_dir})
 target_link_libraries(burr_replay PRIVATE burr_record_parts burr_reading_parts burr_phantom_parts)
 set_target_properties(burr_replay PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@
 #include "burr/render/soft_scene.h"
 #include "burr/render/thin_patch.h"
 #include "burr/render/wound.h"
+#include "burr/workshop/piece_look.h"
 #include "burr/workshop/work_view.h"
 #include "window/hands/mouse_aim.h"
 #include "work_of_page.h"
@@ -48,6 +50,11 @@ struct View {
   std::optional<app::MouseAim> aim;
   app::MouseHand::Aim hand;
   render::HeldTool held;
+  bool leans = true;  // the tool follows a mouse, and is drawn as a hand would hold it
+  std::map<int, std::shared_ptr<const render::ToolLook>> looks;     // of tools of the rack
+  std::map<int, std::shared_ptr<const render::CoarseMesh>> shapes;  // of pieces of bone
+  workshop::PieceLook piece;
+  std::size_t tissue_count = 0;
   tick::TickRow row;
   double rate = web::kRate;             // of ticks [Hz]
   std::vector<volume::Tissue> tissues;  // of the next bone
@@ -78,8 +85,13 @@ surface::Patch patch_of(const surface::Vertex* vertices, int vertex_count,
 }
 
 // What was shown before goes; the camera stays.
-void show_bone(const volume::TissueTable& tissues, double voxel_mm, double rate) {
+void show_bone(const volume::TissueTable& tissues, double voxel_mm, double rate, bool leans) {
   View& v = view();
+  v.leans = leans;
+  v.looks.clear();
+  v.shapes.clear();
+  v.piece = {};
+  v.tissue_count = tissues.tissues.size();
   const render::Camera camera = v.aim ? v.scene.camera : first_camera();
   const double voxel = 1e-3 * voxel_mm;
   v.scene = {};
@@ -169,10 +181,10 @@ EMSCRIPTEN_KEEPALIVE const char* view_gpu() {
 
 // A bone with voxels of this size; what was shown before goes.
 EMSCRIPTEN_KEEPALIVE void view_bone(double voxel_mm) {
-  show_bone(web::phantom_of_page(1e-3 * voxel_mm).tissues, voxel_mm, web::kRate);
+  show_bone(web::phantom_of_page(1e-3 * voxel_mm).tissues, voxel_mm, web::kRate, true);
 }
 // The same for another bone: view_tissue() for each of its tissues (core_tissue()), then view_other_bone().
-// rate: of its ticks [Hz].
+// rate: of its ticks [Hz]. mouse: not 0: its tool follows a mouse.
 EMSCRIPTEN_KEEPALIVE void view_tissue(const char* name, int kind, double red, double green,
                                       double blue, double bleeds) {
   volume::Tissue tissue;
@@ -182,10 +194,10 @@ EMSCRIPTEN_KEEPALIVE void view_tissue(const char* name, int kind, double red, do
   tissue.bleeds = bleeds;
   view().tissues.push_back(tissue);
 }
-EMSCRIPTEN_KEEPALIVE void view_other_bone(double voxel_mm, double rate) {
+EMSCRIPTEN_KEEPALIVE void view_other_bone(double voxel_mm, double rate, int mouse) {
   volume::TissueTable table;
   table.tissues = std::exchange(view().tissues, {});
-  show_bone(table, voxel_mm, rate);
+  show_bone(table, voxel_mm, rate, mouse != 0);
 }
 // The whole bone, seen from the right.
 EMSCRIPTEN_KEEPALIVE void view_whole() {
@@ -227,6 +239,40 @@ EMSCRIPTEN_KEEPALIVE void view_row(const void* bytes) {
   std::memcpy(static_cast<void*>(&v.row), bytes, sizeof v.row);
   workshop::put_tool(v.scene, v.row, false);
   v.wound->see(workshop::wound_tick(v.row, v.rate, {}));
+}
+// The surface of a tool of the rack: what cuts, what rubs.
+EMSCRIPTEN_KEEPALIVE void view_tool_look(int number, const surface::Vertex* cuts, int cuts_count,
+                                         const std::uint32_t* cuts_triangles, int cuts_indices,
+                                         const surface::Vertex* rubs, int rubs_count,
+                                         const std::uint32_t* rubs_triangles, int rubs_indices) {
+  auto look = std::make_shared<render::ToolLook>();
+  look->cuts = patch_of(cuts, cuts_count, cuts_triangles, cuts_indices);
+  look->rubs = patch_of(rubs, rubs_count, rubs_triangles, rubs_indices);
+  view().looks[number] = std::move(look);
+}
+// The tool in the hand, of which view_tool_look() was told; any other number: the round burr. Call it after view_row().
+EMSCRIPTEN_KEEPALIVE void view_tool(int number) {
+  View& v = view();
+  const auto found = v.looks.find(number);
+  v.scene.burr.other = found == v.looks.end() ? nullptr : found->second;
+}
+// The surface of a piece of bone where it came free.
+EMSCRIPTEN_KEEPALIVE void view_piece_shape(int number, const render::SkinVertex* vertices,
+                                           int vertex_count, const std::uint32_t* triangles,
+                                           int index_count) {
+  auto mesh = std::make_shared<render::CoarseMesh>();
+  mesh->vertices.assign(vertices, vertices + vertex_count);
+  // twice the same level: thin_some() leaves it, for PieceLook knows its mesh by the pointer
+  mesh->levels.assign(2, {0, {triangles, triangles + index_count}});
+  view().shapes[number] = std::move(mesh);
+}
+// The piece that is out of the bone, and by how much: x, y, z [m], unit quaternion w, x, y, z. Another number than those
+// of view_piece_shape(): none is out.
+EMSCRIPTEN_KEEPALIVE void view_piece(int number, const double* by) {
+  View& v = view();
+  const auto found = v.shapes.find(number);
+  v.piece.put(v.scene, found == v.shapes.end() ? nullptr : found->second,
+              {{by[0], by[1], by[2]}, {by[3], by[4], by[5], by[6]}}, v.tissue_count);
 }
 // What the page writes of the row: time [s], force [N], removed [mm^3], diameter of the burr [mm],
 // speed that is set [rpm], speed now [rpm], touching, flags.
@@ -317,9 +363,10 @@ EMSCRIPTEN_KEEPALIVE int view_show(double now, double took, int left_handed) {
   static double before = 0;
   const double seconds = std::clamp(now - before, 0.0, 0.1);
   before = now;
-  if (v.scene.burr.visible) {
-    v.scene.burr.world_from_tool =
-        v.held.at(v.scene, v.row.contact.proxy, left_handed != 0, seconds);
+  if (v.scene.burr.visible && v.scene.burr.other == nullptr) {
+    if (v.leans)
+      v.scene.burr.world_from_tool =
+          v.held.at(v.scene, v.row.contact.proxy, left_handed != 0, seconds);
     if (v.row.spindle_rad_s > 0)
       v.scene.burr.turn = std::remainder(v.scene.burr.turn + kSpin * seconds, 6.2832);
   }

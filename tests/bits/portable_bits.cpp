@@ -9,9 +9,9 @@
 //                                    hexadecimal numbers
 //
 // The bone is made by plain arithmetic and std::sqrt, which IEEE 754 defines to the last bit. The
-// tick itself calls exp (the filters of velocity and drag, the spindle's brake), cos and remainder
-// (the burr's teeth) and atan2 (friction) of the C library.
+// tick uses the functions of math/elementary.h, whose bits have a line of their own.
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -22,6 +22,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/math/elementary.h"
 #include "burr/tick/servo.h"
 #include "burr/tool/shaped_tool.h"
 #include "burr/volume/bone.h"
@@ -191,6 +192,30 @@ void replay(const Scene& scene, int number = -1) {
               1e9 * row->ledger.removed);
 }
 
+// exp, sin, cos, atan2 and hypot over arguments that plain arithmetic makes.
+void print_elementary() {
+  std::uint64_t state = 1, hash = 14695981039346656037ULL;
+  const auto next = [&state](double far) {
+    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return far * (static_cast<double>(state >> 11) * 0x1p-52 - 1);
+  };
+  const auto add = [&hash](double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    hash = (hash ^ bits) * 1099511628211ULL;
+  };
+  for (int n = 0; n < 100000; ++n) {
+    const double x = next(1), y = next(1), far = next(40);
+    add(math::exponential(far));
+    add(math::exponential_minus_one(x));
+    add(math::sine(far));
+    add(math::cosine(far));
+    add(math::angle_of(y, x));
+    add(math::hypotenuse(x, y));
+  }
+  std::printf("elementary %016llx\n", static_cast<unsigned long long>(hash));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -201,6 +226,7 @@ int main(int argc, char** argv) {
     for (const Scene& scene : scenes) replay(scene);
     for (int number = 0; number < static_cast<int>(tools().size()); ++number)
       replay(scenes.back(), number);
+    print_elementary();
   } else {
     give_up("usage: portable_bits PATHS, or", "--make");
   }

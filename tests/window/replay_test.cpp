@@ -14,6 +14,8 @@
 #include "burr/render/bone_scene.h"
 #include "burr/render/held_tool.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tool/shape.h"
+#include "burr/workshop/work_view.h"
 #include "commands/recording.h"
 #include "commands/work.h"
 #include "window/replay/difference.h"
@@ -35,6 +37,7 @@ class Replay : public Window {
     WorkOptions options;
     options.volume.source = "block";
     options.volume.voxel_mm = 0.5;
+    options.tool.tool = tool_;
     NoProgress quiet;
     ASSERT_TRUE(take_case(options));
     auto work = open_work(options, quiet);
@@ -91,6 +94,7 @@ class Replay : public Window {
   }
 
   device::DeviceSpec hand_;
+  std::string tool_;  // of the rack; empty: the round burr
   fs::path file_ = folder_ / "s.mcap";
   std::uint64_t before_ = 0, half_ = 0, after_ = 0;
   double removed_ = 0;
@@ -121,6 +125,44 @@ TEST_F(ReplayOfAMouse, ShowsTheToolHeldAsWhileMillingAndNotAlongTheRecordedAxis)
   EXPECT_GT(angle(drawn, sight), 0.95 * render::HeldTool::kLeast);
   EXPECT_GT(angle(drawn, along), 0.1);
   EXPECT_GT(drawn.dot(right), 0.1) << "from the side of the right hand";
+}
+
+class ReplayOfASaw : public ReplayOfAMouse {
+ protected:
+  ReplayOfASaw() { tool_ = "sagittal-saw"; }
+};
+
+// Also with a mouse: the direction of a blade matters to what it cuts.
+TEST_F(ReplayOfASaw, ShowsTheSawWhereItWas) {
+  Recorded recorded = open();
+  ASSERT_TRUE(recorded.bone);
+  ASSERT_EQ(recorded.player->info().tools.size(), 1U);
+  const tool::Tool& saw = recorded.player->info().tools[0].tool;
+  math::Pose drawn;
+  std::vector<math::Vec3> seen;
+  watch_by(recorded, 4.999, {{"half time", shows(4.999), [&] {
+                                drawn = recorded.scene.burr.world_from_tool;
+                                if (const render::ToolLook* look = recorded.scene.burr.other.get();
+                                    look != nullptr)
+                                  for (const surface::Mesh* part : {&look->cuts, &look->rubs})
+                                    for (const surface::Vertex& vertex : part->vertices)
+                                      seen.emplace_back(vertex.p.cast<double>());
+                                press(SDLK_ESCAPE);
+                              }}});
+  EXPECT_GT(seen.size(), 100U);
+  for (const math::Vec3& p : seen) {  // on the surface of a part
+    double off = 1;
+    for (int n = 0; n < saw.count; ++n) {
+      const tool::Part& part = saw.parts[static_cast<std::size_t>(n)];
+      off = std::min(off,
+                     std::abs(tool::distance(part.shape, part.tool_from_part.inverse() * p).phi));
+    }
+    EXPECT_LT(off, 0.1e-3) << p.transpose();
+  }
+  const tick::TickRow row = *recorded.player->tick_at(4.999);
+  const math::Pose held = workshop::pose_of_tool(row);
+  EXPECT_LT((drawn.p - held.p).norm(), 1e-9);
+  EXPECT_LT((drawn.q.coeffs() - held.q.coeffs()).norm(), 1e-9);
 }
 
 // Removed and not undone at that second [m^3].

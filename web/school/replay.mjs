@@ -17,7 +17,7 @@ async function view_of_bones(kit) {
   modules ??= Promise.all(["common/burr.js", "common/skin.js", "common/canvas.js", "common/words.js"].map(file => import(pages + file)))
     .then(async ([burr, skin, canvas, words]) => {
       await words.load();
-      return { compiled: await burr.compile(), start: burr.start, show: skin.show, fit: canvas.fit, wanted_size: canvas.wanted_size, words };
+      return { compiled: await burr.compile(), start: burr.start, show: skin.show, begin_bone: skin.begin_bone, fit: canvas.fit, wanted_size: canvas.wanted_size, words };
     });
   try {
     const all = await modules;
@@ -114,9 +114,7 @@ class Scene {
     const { words } = this.parts, view = this.view;
     switch (data.kind) {
       case "opened":
-        for (const { name, told } of data.tissues)
-          view.with_bytes([new TextEncoder().encode(name + "\0")], text => view.view_tissue(text, ...told));
-        view.view_other_bone(data.voxel, data.rate);
+        this.parts.begin_bone(view, data.tissues, data.voxel, data.rate, data.mouse);
         break;
       case "skin": this.waiting.push(...data.patches); break;
       case "soft": this.waiting.push(...data.parts.map(one => ({ ...one, soft: true }))); break;
@@ -126,7 +124,7 @@ class Scene {
         this.wanted ??= 0;
         break;
       case "moment":
-        this.waiting.push(...data.patches, { row: data.row });
+        this.waiting.push(...data.patches, { row: data.row }, { held: data.held });
         this.shown = data.time;
         this.asked = false;
         break;

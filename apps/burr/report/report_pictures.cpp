@@ -280,8 +280,9 @@ Status ReportArtist::moment_of(const scoring::Outcome& outcome, std::size_t room
     plain_[static_cast<std::size_t>(skin.patch)] = *skin.mesh;
     render::set_patch(scene_, skin.patch, *skin.mesh);
   });
-  const auto tick = player.tick_at(t);
-  if (!tick) return tick.error();
+  const auto step = player.step_at(t);
+  if (!step) return step.error();
+  const tick::TickRow* tick = &step->row;
   const record::View* seen = nullptr;
   for (const record::View& view : views_)
     if (view.tick <= *outcome.tick) seen = &view;
@@ -291,6 +292,10 @@ Status ReportArtist::moment_of(const scoring::Outcome& outcome, std::size_t room
                       ? camera_of(*seen, tip, kAspect)
                       : render::view_of_work(tip, towards_, 8 * tick->tool.radius + 10e-3);
   workshop::put_tool(scene_, *tick, true);
+  if (looks_.empty()) looks_ = workshop::ToolLooks(player.info().tools);
+  looks_.put(scene_, tick->tool.number);
+  const tool::Tool* other = record::tool_of(player.info().second);
+  second_.put(scene_, step->second ? &*step->second : nullptr, other);
   const auto piece = pieces_->at(*tick, t, *scored_.after);
   if (!piece) return piece.error();
   piece_.put(scene_, piece->mesh, piece->by, scored_.after->tissues().tissues.size());
@@ -299,6 +304,7 @@ Status ReportArtist::moment_of(const scoring::Outcome& outcome, std::size_t room
   scene_.burr.visible = false;
   scene_.markers.clear();
   scene_.rods.clear();
+  second_.put(scene_, nullptr, other);
   piece_.take_away(scene_);
   if (!view) return view.error();
   out.push_back(std::move(*view));

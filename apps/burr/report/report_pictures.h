@@ -34,6 +34,8 @@
 #include "burr/surface/worker.h"
 #include "burr/workshop/out_piece.h"
 #include "burr/workshop/piece_look.h"
+#include "burr/workshop/second_tool.h"
+#include "burr/workshop/tool_looks.h"
 #include "report/product_views.h"
 #include "report/report.h"
 #include "report/scored.h"
@@ -95,6 +97,8 @@ class ReportArtist {
   std::vector<bool> painted_;                  // of them: in other colours now
   std::optional<workshop::OutPieces> pieces_;  // that were out of the bone
   workshop::PieceLook piece_;
+  workshop::ToolLooks looks_;                           // of the tools of the rack
+  workshop::SecondTool second_;                         // of the other hand
   volume::TissueId cut_ = 0, missed_ = 0, excess_ = 0;  // colours beyond those of the tissues
   std::vector<record::View> views_;
   std::unique_ptr<surface::Worker> worker_;

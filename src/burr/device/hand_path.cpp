@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "burr/math/turn.h"
+
 namespace burr::device {
 
 PathPoint at(const HandPath& path, double t, std::size_t& hint) noexcept {
@@ -16,7 +18,7 @@ PathPoint at(const HandPath& path, double t, std::size_t& hint) noexcept {
   PathPoint now;
   now.t = t;
   now.world_from_tool.p = a.world_from_tool.p + s * (b.world_from_tool.p - a.world_from_tool.p);
-  now.world_from_tool.q = a.world_from_tool.q.slerp(s, b.world_from_tool.q);
+  now.world_from_tool.q = math::between(a.world_from_tool.q, b.world_from_tool.q, s);
   now.pedal = s < 1 ? a.pedal : b.pedal;  // the pedal is not interpolated
   return now;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "burr/math/turn.h"
+
 namespace burr::device {
 
 PushedHand::PushedHand(const ArmSettings& arm, DeviceSpec spec)
@@ -45,7 +47,7 @@ HandState PushedHand::state(double dt) BURR_RT {
   if (left_ > 0) {
     const double part = 1.0 / static_cast<double>(left_);
     target_.p += (goal_.p - target_.p) * part;
-    target_.q = left_ > 1 ? math::Quat(target_.q.slerp(part, goal_.q)) : goal_.q;
+    target_.q = left_ > 1 ? math::between(target_.q, goal_.q, part) : goal_.q;
     --left_;
   } else {
     target_ = goal_;

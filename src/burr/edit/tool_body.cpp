@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "burr/math/sums.h"
+#include "burr/math/turn.h"
 #include "burr/rt/simd.h"
 
 namespace burr::edit {
@@ -51,10 +52,9 @@ ToolBody advanced(const ToolBody& body, double by) BURR_RT {
   ToolBody moved = body;
   moved.grid_from_tool.p += by * body.ahead;
   const Vec3 turn = by * body.turn;
-  const double angle = math::norm(turn);
-  if (angle > 0)
+  if (math::norm(turn) > 0)
     moved.grid_from_tool.q =
-        (math::Quat(Eigen::AngleAxisd(angle, turn / angle)) * body.grid_from_tool.q).normalized();
+        math::normalized(math::product(math::rotation_of(turn), body.grid_from_tool.q));
   return moved;
 }
 

@@ -6,6 +6,7 @@
 
 #include "burr/haptics/soft_contact.h"
 #include "burr/haptics/thin.h"
+#include "burr/math/elementary.h"
 #include "burr/math/sums.h"
 #include "burr/rt/simd.h"
 #include "burr/volume/sample.h"
@@ -492,7 +493,8 @@ Touch Proxy::step(const Vec3& hand) BURR_RT {
       const Vec3 trail = behind - math::dot(behind, normal) * normal;
       const double reach = math::norm(trail);
       if (!sliding_ && reach > settings_.friction_static * press) sliding_ = true;
-      if (sliding_ && std::atan2(reach, press) < 0.6 * std::atan(settings_.friction_kinetic))
+      if (sliding_ &&
+          math::angle_of(reach, press) < 0.6 * math::arctangent(settings_.friction_kinetic))
         sliding_ = false;
       const double allowed = sliding_ ? std::min(reach, settings_.friction_kinetic * press) : reach;
       if (allowed > 1e-9) {

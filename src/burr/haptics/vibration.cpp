@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/base/hash.h"
+#include "burr/math/elementary.h"
 #include "burr/math/sums.h"
 
 namespace burr::haptics {
@@ -85,8 +86,8 @@ void Vibration::tune(double frequency, double dt) BURR_RT {
   tuned_to_ = frequency;
   tuned_dt_ = dt;
   const double angle = 2 * M_PI * frequency * dt;
-  const double width = std::sin(angle) / (2 * settings_.quality);
-  back_1_ = 2 * std::cos(angle) / (1 + width);
+  const double width = math::sine(angle) / (2 * settings_.quality);
+  back_1_ = 2 * math::cosine(angle) / (1 + width);
   back_2_ = (1 - width) / (1 + width);
   gain_ = std::sqrt(width / (1 + width));  // peak a / (1 + a), variance: its root
 }

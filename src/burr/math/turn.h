@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
+#include "burr/math/elementary.h"
 #include "burr/math/pose.h"
 #include "burr/math/sums.h"
 #include "burr/math/vec3.h"
@@ -24,7 +26,31 @@ namespace burr::math {
   const Vec3 half(side * q.x(), side * q.y(), side * q.z());
   const double sine = norm(half);
   if (sine < 1e-12) return 2 * half;
-  return half * (2 * std::atan2(sine, side * q.w()) / sine);
+  return half * (2 * angle_of(sine, side * q.w()) / sine);
+}
+
+// The inverse: a turn by norm(turn) about the axis `turn`. [rad]
+[[nodiscard]] inline Quat rotation_of(const Vec3& turn) {
+  const double angle = norm(turn);
+  if (!(angle > 0)) return Quat::Identity();
+  const Vec3 axis = turn / angle * sine(0.5 * angle);
+  return {cosine(0.5 * angle), axis.x(), axis.y(), axis.z()};
+}
+
+// The rotation between a (share 0) and b (share 1), at the same speed all along and on the shorter way (K. Shoemake, Animating
+// Rotation with Quaternion Curves, SIGGRAPH 1985): Eigen's slerp with functions and an order that are written down.
+[[nodiscard]] inline Quat between(const Quat& a, const Quat& b, double share) {
+  const double c = (a.x() * b.x() + a.z() * b.z()) + (a.y() * b.y() + a.w() * b.w());
+  const double near = std::abs(c);
+  double of_a = 1 - share, of_b = share;
+  if (near < 1 - std::numeric_limits<double>::epsilon()) {
+    const double half = angle_of(std::sqrt((1 - near) * (1 + near)), near), whole = sine(half);
+    of_a = sine((1 - share) * half) / whole;
+    of_b = sine(share * half) / whole;
+  }
+  if (c < 0) of_b = -of_b;
+  return {of_a * a.w() + of_b * b.w(), of_a * a.x() + of_b * b.x(), of_a * a.y() + of_b * b.y(),
+          of_a * a.z() + of_b * b.z()};
 }
 
 // `q` turned further by the small rotation vector `by`: exact to |by|^3 / 12. Unit again. [rad]

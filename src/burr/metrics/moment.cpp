@@ -28,10 +28,7 @@ bool feels_shaft(const record::SessionInfo& info) {
 math::Quat turn_of_tool(const tick::TickRow& row) {
   const math::Vec3& turn = row.contact.turn;
   if (!turn.allFinite()) return row.hand.world_from_tool.q;
-  const double angle = turn.norm();
-  if (!(angle > 0)) return row.hand.world_from_tool.q;
-  return math::product(math::Quat(Eigen::AngleAxisd(angle, math::Vec3(turn / angle))),
-                       row.hand.world_from_tool.q);
+  return math::product(math::rotation_of(turn), row.hand.world_from_tool.q);
 }
 
 }  // namespace

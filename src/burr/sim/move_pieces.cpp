@@ -79,9 +79,7 @@ Result<PieceMoved> move_piece(Session& session, edit::PieceStore& store, const P
   session.run(kRest, progress);
   const auto piece = store.find(session.bone(), order.near);
   if (!piece) return piece.error();
-  const double angle = order.turn.norm();
-  const Quat turn =
-      angle > 0 ? Quat(Eigen::AngleAxisd(angle, order.turn / angle)) : Quat(Quat::Identity());
+  const Quat turn = math::rotation_of(order.turn);
   return put(session, store, further(*piece, order.by, turn), piece->volume, progress);
 }
 

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "burr/base/printable.h"
+#include "burr/math/elementary.h"
 #include "burr/math/rotation.h"
 
 namespace burr::surgeon {
@@ -112,8 +113,8 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
     for (int ring = 0; ring <= 25 && !hit; ++ring)
       for (int spoke = 0; spoke < std::max(1, 6 * ring) && !hit; ++spoke) {
         const double angle = 2 * M_PI * spoke / std::max(1, 6 * ring);
-        const Vec3 top(middle.x() + ring * spacing * std::cos(angle),
-                       middle.y() + ring * spacing * std::sin(angle), world.hi.z() + grid.voxel);
+        const Vec3 top(middle.x() + ring * spacing * math::cosine(angle),
+                       middle.y() + ring * spacing * math::sine(angle), world.hi.z() + grid.voxel);
         hit = first_bone(bone, top, -Vec3::UnitZ(), world.extent().z() + 2 * grid.voxel);
       }
     if (!hit)
@@ -145,7 +146,7 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
   const Vec3 u = out.unitOrthogonal(), v = out.cross(u);
   // the handle leans 30 degrees, as a hand holds it, because the pole of a burr hardly cuts
   const math::Quat grip =
-      handle_along((std::cos(M_PI / 6) * out + std::sin(M_PI / 6) * u).normalized());
+      handle_along((math::cosine(M_PI / 6) * out + math::sine(M_PI / 6) * u).normalized());
   const double work = seconds - kApproachTime;
   const double r = burr_radius;
 
@@ -169,11 +170,11 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
     } else if (name == "pocket") {
       // circles at 30 mm/s, at most 4 mm wide, going down at a constant rate to 6 mm
       const double wide = std::min(4e-3, 1e-3 + 3e-3 * share), angle = 30e-3 / 3e-3 * s;
-      offset = wide * (std::cos(angle) - 1) * u + wide * std::sin(angle) * v -
+      offset = wide * (math::cosine(angle) - 1) * u + wide * math::sine(angle) * v -
                (1e-3 * std::min(1.0, 2 * s) + 5e-3 * share) * out;
     } else {  // stroke, touch: 1.3 strokes a second over 8 mm, 40 mm/s at most
       const double sunk = (name == "touch" ? 0.5e-3 : 1.5e-3) * std::min(1.0, 4 * s);
-      offset = 4e-3 * std::sin(2 * M_PI * 1.3 * s) * u - sunk * out;
+      offset = 4e-3 * math::sine(2 * M_PI * 1.3 * s) * u - sunk * out;
     }
     add(t, offset, pedal);
   }

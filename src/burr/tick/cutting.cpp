@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "burr/edit/laws/thesis.h"
+#include "burr/math/elementary.h"
 #include "burr/math/sums.h"
 
 namespace burr::tick {
@@ -81,7 +82,7 @@ bool Cutting::tooth_is_carried() const BURR_RT {
 // light device about: so the drag follows slowly, and goes with the push.
 Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
   const haptics::Touch& touch = hand_.touch();
-  const double share = 1 - std::exp(-2 * M_PI * settings_.drag_hz * dt_);
+  const double share = 1 - math::exponential(-2 * M_PI * settings_.drag_hz * dt_);
   drag_ += share * (settings_.drag_gain * now_.drag - drag_);
   moment_ += share * (settings_.drag_gain * cut_moment_ - moment_);
   drag_share_ = 0;
@@ -100,7 +101,7 @@ Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
   if (is <= 0 || most <= 0) return Vec3::Zero();
   double gain = std::min(1.0, most / is);
   if (tooth_is_carried())
-    gain *= 1 + std::min(1.0, settings_.drag_gain * now_.ripple / is) * std::cos(tooth_phase_);
+    gain *= 1 + std::min(1.0, settings_.drag_gain * now_.ripple / is) * math::cosine(tooth_phase_);
   drag_share_ = gain;
   return gain * along;
 }

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/math/elementary.h"
 #include "burr/rt/rt.h"
 
 namespace burr::tool {
@@ -59,7 +60,7 @@ class Spindle {
     const double pull = (whole ? driven : steep * set) - way * cutting;
     const double brake = motor.friction + (whole ? 0.0 : steep);
     const double rest = brake > 0 ? pull / brake : 0;
-    const double share = 1 - std::exp(-brake * dt / motor.inertia);
+    const double share = 1 - math::exponential(-brake * dt / motor.inertia);
     const double before = speed_;
     speed_ += brake > 0 ? (rest - speed_) * share : pull * dt / motor.inertia;
     // full torque ends where the spring characteristic begins: no overshoot past the set speed

@@ -252,8 +252,8 @@ double removed_volume(const Bone& before, const Bone& after) {
       if (now < b[v]) units += volume_units(std::int32_t{b[v]}) - volume_units(std::int32_t{now});
     }
   }
-  return static_cast<double>(units) / static_cast<double>(kVoxelUnits) *
-         std::pow(before.grid().voxel, 3);
+  const double voxel = before.grid().voxel;
+  return static_cast<double>(units) / static_cast<double>(kVoxelUnits) * (voxel * voxel * voxel);
 }
 
 }  // namespace burr::volume

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "burr/math/turn.h"
@@ -43,9 +42,7 @@ OffPlan off_plan(const scenario::PlannedPiece& plan, const Vec3& by, const Quat&
   off.wanted_way = plan.by.norm();
   off.way = off.wanted_way > 0 ? by.dot(plan.by) / off.wanted_way : by.norm();
   off.off = (by - plan.by).norm();
-  const double angle = plan.turn.norm();
-  const Quat wanted =
-      angle > 0 ? Quat(Eigen::AngleAxisd(angle, plan.turn / angle)) : Quat(Quat::Identity());
+  const Quat wanted = math::rotation_of(plan.turn);
   off.turned_off = math::rotation_vector(math::product(turn, wanted.conjugate())).norm();
   return off;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "burr/math/turn.h"
 #include "burr/render/camera.h"
 #include "burr/render/look.h"
 
@@ -62,10 +63,8 @@ render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz,
 
 math::Pose pose_of_tool(const tick::TickRow& row) {
   // contact may have turned the tool away from the hand
-  const double angle = row.contact.turn.norm();
-  const math::Quat turn(angle > 0 ? Eigen::AngleAxisd(angle, math::Vec3(row.contact.turn / angle))
-                                  : Eigen::AngleAxisd::Identity());
-  return {row.contact.proxy, turn * row.hand.world_from_tool.q};
+  return {row.contact.proxy,
+          math::product(math::rotation_of(row.contact.turn), row.hand.world_from_tool.q)};
 }
 
 void put_tool(render::Scene& scene, const tick::TickRow& row, bool contact) {

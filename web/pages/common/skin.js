@@ -24,6 +24,12 @@ function copy(burr, pointer, size) {
   };
 }
 
+// A Given that is no patch.
+export const surface = {
+  vertices: (burr, pointer) => copy(burr, pointer, kVertex),  // surface::Vertex
+  skin: (burr, pointer) => copy(burr, pointer, kSkinVertex),  // render::SkinVertex
+};
+
 // The tissues of the bone, for view_tissue().
 export function tissues(burr) {
   const all = [];
@@ -76,8 +82,29 @@ export class Skin {
 
 // ---- in the page
 
-// Gives a patch, a part of a soft structure, or a row of the ticks to the view.
+// What a recording's hand holds at a moment, of its worker's message.
+function show_held(view, one) {
+  if (one.look !== undefined) {
+    const {cuts, rubs} = one;
+    view.with_bytes([cuts.vertices, cuts.triangles, rubs.vertices, rubs.triangles], (cv, ct, rv, rt) =>
+      view.view_tool_look(one.look, cv, cuts.count, ct, cuts.indices, rv, rubs.count, rt, rubs.indices));
+  } else if (one.shape !== undefined) {
+    const {skin} = one;
+    view.with_bytes([skin.vertices, skin.triangles], (vertices, triangles) =>
+      view.view_piece_shape(one.shape, vertices, skin.count, triangles, skin.indices));
+  } else if (one.tool !== undefined) {
+    view.view_tool(one.tool);
+  } else {
+    view.with_bytes([new Uint8Array(new Float64Array(one.pose).buffer)], (pose) => view.view_piece(one.piece, pose));
+  }
+}
+
+// Gives a patch, a part of a soft structure, a row of the ticks, or what the hand holds to the view.
 export function show(view, one) {
+  if (one.held) {
+    one.held.forEach((part) => show_held(view, part));
+    return;
+  }
   if (one.row) {
     view.with_bytes([one.row], (row) => view.view_row(row));
     return;
@@ -87,9 +114,9 @@ export function show(view, one) {
                   (vertices, triangles) => call(one.number, vertices, one.count, triangles, one.indices));
 }
 
-// Another bone than the page's: its tissues, from tissues().
-export function begin_bone(view, all, voxel_mm, rate) {
+// Another bone than the page's: its tissues, from tissues(). mouse: the tool follows a mouse, and is drawn as a hand would hold it.
+export function begin_bone(view, all, voxel_mm, rate, mouse) {
   for (const {name, told} of all)
     view.with_bytes([new TextEncoder().encode(name + '\0')], (text) => view.view_tissue(text, ...told));
-  view.view_other_bone(voxel_mm, rate);
+  view.view_other_bone(voxel_mm, rate, mouse ? 1 : 0);
 }

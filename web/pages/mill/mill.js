@@ -153,7 +153,7 @@ function hear(data) {
       mark('shaped');
       if (data.tissues) {
         burr.voxel = data.voxel;
-        begin_bone(view, data.tissues, data.voxel, 1000);
+        begin_bone(view, data.tissues, data.voxel, 1000, true);
         unseen = true;
       }
       break;

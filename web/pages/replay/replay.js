@@ -84,7 +84,7 @@ function hear(data) {
   switch (data.kind) {
     case 'opened':
       seconds = burr.seconds = data.seconds;
-      begin_bone(view, data.tissues, data.voxel, data.rate);
+      begin_bone(view, data.tissues, data.voxel, data.rate, data.mouse);
       $('time').max = seconds;
       $('time').value = 0;
       break;
@@ -101,7 +101,7 @@ function hear(data) {
       seek(0);
       break;
     case 'moment':
-      waiting.push(...data.patches, {row: data.row});
+      waiting.push(...data.patches, {row: data.row}, {held: data.held});
       moment = data;
       asked = false;
       break;

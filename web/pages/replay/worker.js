@@ -1,19 +1,20 @@
 // The worker of the page: reads a recording, and makes bone and row of any moment. The file stays in this worker.
 //
 //     page -> worker   open {file, bone, work}, seek {time}, hash; bone: of a recording that holds none, as bytes
-//     worker -> page   here, opened {seconds, rate, voxel, tissues}, skin {patches}, skin_done, soft {parts}, ready,
-//                      moment {time, row, patches}, hash {bone}, refused {why, parts}, broken {text, why, parts}
+//     worker -> page   here, opened {seconds, rate, voxel, tissues, mouse}, skin {patches}, skin_done, soft {parts}, ready,
+//                      moment {time, row, patches, held}, hash {bone}, refused {why, parts}, broken {text, why, parts}
 //
 // Each file has a number, `work`, and each message carries it, so that the page can leave what came of the file before.
 import make from '../burr_replay.mjs';
 import {compile, start} from '../common/burr.js';
-import {Skin, tissues} from '../common/skin.js';
+import {Skin, surface, tissues} from '../common/skin.js';
 
 const kPath = '/in/burr.mcap';
 
 const reader = compile('burr_replay.wasm');
 let burr = null, skin = null;
 let work = 0;  // number of the file
+let sent = new Set();  // tools and pieces whose surface the page has
 
 self.onmessage = async ({data}) => {
   try {
@@ -34,6 +35,7 @@ function tell(message) {
 async function open({file, bone, work: mine}) {
   work = mine;
   burr = skin = null;  // an older file gives its memory back
+  sent = new Set();
   const fresh = await start(await reader, make);
   if (work !== mine) return;  // another one was chosen meanwhile
   burr = fresh;
@@ -47,7 +49,8 @@ async function open({file, bone, work: mine}) {
     tell({kind: 'refused', why: 'not_opened', parts: [file.name, reason()]});
     return;
   }
-  tell({kind: 'opened', seconds: burr.core_seconds(), rate: burr.core_rate(), voxel: burr.core_voxel_mm(), tissues: tissues(burr)});
+  tell({kind: 'opened', seconds: burr.core_seconds(), rate: burr.core_rate(), voxel: burr.core_voxel_mm(), tissues: tissues(burr),
+        mouse: burr.core_mouse() !== 0});
   skin = new Skin(burr, work);
   await skin.send_whole(() => work === mine);
   if (work === mine) tell({kind: 'ready'});
@@ -59,7 +62,22 @@ function seek(time) {
     return;
   }
   skin.make_all();
-  skin.send({kind: 'moment', time, row: burr.bytes(burr.core_row(), burr.core_row_size()).slice()});
+  skin.send({kind: 'moment', time, row: burr.bytes(burr.core_row(), burr.core_row_size()).slice(), held: held()});
+}
+
+// What is in the hand: a tool of the rack, a piece of bone. A surface goes to the page once.
+function held() {
+  const fresh = (name) => !sent.has(name) && Boolean(sent.add(name));
+  const all = [], tool = burr.core_tool();
+  if (tool >= 0 && fresh(`tool ${tool}`)) {
+    const [cuts, rubs] = [0, 1].map((part) => surface.vertices(burr, burr.core_tool_part(part)));
+    all.push({look: tool, cuts, rubs});
+  }
+  all.push({tool});
+  const [piece, ...pose] = burr.numbers(burr.core_piece(), 8);
+  if (piece > 0 && fresh(`piece ${piece}`)) all.push({shape: piece, skin: surface.skin(burr, burr.core_piece_skin())});
+  all.push({piece, pose});
+  return all;
 }
 
 // Of the bone as it is shown: for those who want to compare.

@@ -32,6 +32,7 @@ ReplayView::ReplayView(Recorded& recorded, bool software, const render::Governor
       slices_(*recorded.bone),
       plain_(*recorded.bone),
       live_(*recorded.bone, *recorded.worker, recorded.scene, software, governor),
+      looks_(recorded.player->info().tools),
       playback_(recorded) {
   scene().scale_bar = false;
   difference_colours_ = Difference::add_colours(scene().tissue_colours);
@@ -52,8 +53,10 @@ void ReplayView::want(double t_s) {
   settled_ = 0;
 }
 
-// A mouse has no orientation: its tool is drawn as a hand would hold it, as while milling.
+// A mouse has no orientation: its burr is drawn as a hand would hold it, as while milling. Of any other tool the direction
+// matters to what it cuts.
 void ReplayView::lean_tool(bool left_handed) {
+  if (shown_.row.tool.number >= 0) return;
   const auto now = std::chrono::steady_clock::now();
   const double seconds = std::chrono::duration<double>(now - std::exchange(leaned_, now)).count();
   const auto& words = recorded_.player->info().words;
@@ -69,6 +72,7 @@ void ReplayView::look(bool effects, bool playing, bool left_handed) {
     if (effects) live_.see(shown_.changes);
     if (shown_.trouble.empty()) {
       workshop::put_tool(scene(), shown_.row, true);
+      looks_.put(scene(), shown_.row.tool.number);
       second_.put(scene(), shown_.second ? &*shown_.second : nullptr,
                   record::tool_of(recorded_.player->info().second));
       const tool::Burr& burr = recorded_.settings.settings.servo.burr;

@@ -19,6 +19,7 @@
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/piece_look.h"
 #include "burr/workshop/second_tool.h"
+#include "burr/workshop/tool_looks.h"
 #include "window/mill/slices.h"
 #include "window/replay/playback.h"
 
@@ -88,6 +89,7 @@ class ReplayView {
          jump_ = -1;  // jump_: the moment that was jumped to; below 0: it is there [s]
   bool behind_ = false, known_ = false;
   std::string trouble_;
+  workshop::ToolLooks looks_;  // of the tools of the rack
   render::HeldTool held_;
   workshop::SecondTool second_;  // of the other hand
   workshop::PieceLook piece_;    // of bone that is out of the bone

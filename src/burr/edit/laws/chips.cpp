@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/math/elementary.h"
 #include "burr/math/sums.h"
 #include "burr/volume/sample.h"
 
@@ -20,7 +21,7 @@ constexpr int kRounds = 40;
 constexpr double kClose = 1e-9;  // accuracy, relative to the push
 
 double edge_share(double chip, const CuttingForce& force) BURR_RT {
-  return 1 - std::exp(-chip / force.edge_onset);
+  return 1 - math::exponential(-chip / force.edge_onset);
 }
 
 double radial(double chip, const CuttingForce& force) BURR_RT {
@@ -29,7 +30,7 @@ double radial(double chip, const CuttingForce& force) BURR_RT {
 
 double radial_slope(double chip, const CuttingForce& force) BURR_RT {
   return force.chip_radial +
-         force.edge_radial / force.edge_onset * std::exp(-chip / force.edge_onset);
+         force.edge_radial / force.edge_onset * math::exponential(-chip / force.edge_onset);
 }
 
 double tangential(double chip, const CuttingForce& force) BURR_RT {
@@ -38,7 +39,7 @@ double tangential(double chip, const CuttingForce& force) BURR_RT {
 
 double tangential_slope(double chip, const CuttingForce& force) BURR_RT {
   return force.chip_tangential +
-         force.edge_tangential / force.edge_onset * std::exp(-chip / force.edge_onset);
+         force.edge_tangential / force.edge_onset * math::exponential(-chip / force.edge_onset);
 }
 
 // Where a rising, concave function with value 0 at 0 reaches `wanted`: Newton's method from the
@@ -61,14 +62,14 @@ double where(double wanted, const Value& value, const Slope& slope) BURR_RT {
 Chips::Chips(const volume::Bone& bone) : bone_(bone) {
   const auto cosine_of = [](double n) {
     const double share = n / kPoints;
-    return std::cos(0.5 * M_PI * share * std::sqrt(share));
+    return math::cosine(0.5 * M_PI * share * std::sqrt(share));
   };
   for (int n = 0; n < kPoints; ++n) {
     Point& point = points_[static_cast<std::size_t>(n)];
     point.cosine = cosine_of(n + 0.5);
     const double sine = std::sqrt(1 - point.cosine * point.cosine), beta = 2 * M_PI * kGolden * n;
-    point.u = sine * std::cos(beta);
-    point.v = sine * std::sin(beta);
+    point.u = sine * math::cosine(beta);
+    point.v = sine * math::sine(beta);
     point.area = 2 * M_PI * (cosine_of(n) - cosine_of(n + 1));
   }
 }
@@ -120,7 +121,8 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       ring.drag += edge / far * sliding;
       if (!with_ripple) continue;
       // e^(i z phi), by multiplying z times
-      const double px = math::dot(way, x), py = math::dot(way, y), across = std::hypot(px, py);
+      const double px = math::dot(way, x), py = math::dot(way, y),
+                   across = math::hypotenuse(px, py);
       if (across <= 0) continue;
       double re = 1, im = 0;
       for (int z = 0; z < burr.teeth; ++z) {
@@ -130,7 +132,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       }
       // the piece has a width: near the shaft it spans many teeth
       const double span = 0.5 * burr.teeth * std::sqrt(piece) / (r * across);
-      const double seen = span < M_PI ? edge * std::sin(span) / span : 0.0;
+      const double seen = span < M_PI ? edge * math::sine(span) / span : 0.0;
       ring.swing_re += seen * re;
       ring.swing_im += seen * im;
     }
@@ -204,7 +206,7 @@ Cutting Chips::step(const tool::Burr& burr, const Vec3& centre, const Vec3& norm
   cutting.drag = world_from_grid * cutting.drag;
   // the force along the normal is already the thrust of the spring
   cutting.drag -= math::dot(cutting.drag, normal) * normal;
-  cutting.ripple = 2 * std::hypot(re, im);
+  cutting.ripple = 2 * math::hypotenuse(re, im);
   return cutting;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "burr/math/elementary.h"
 #include "burr/math/vec3.h"
 
 namespace burr::haptics {
@@ -15,7 +16,7 @@ inline void spread_on_ball(std::span<math::Vec3> points) {
   for (std::size_t n = 0; n < points.size(); ++n) {
     const double z = 1 - (2 * static_cast<double>(n) + 1) / static_cast<double>(points.size()),
                  flat = std::sqrt(1 - z * z), turn = golden * static_cast<double>(n);
-    points[n] = {flat * std::cos(turn), flat * std::sin(turn), z};
+    points[n] = {flat * math::cosine(turn), flat * math::sine(turn), z};
   }
 }
 

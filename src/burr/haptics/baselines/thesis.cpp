@@ -1,8 +1,8 @@
 #include "burr/haptics/baselines/thesis.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "burr/math/elementary.h"
 #include "burr/math/sums.h"
 #include "burr/volume/sample.h"
 
@@ -107,7 +107,8 @@ Touch ThesisProxy::step(const Vec3& hand) BURR_RT {
     const Vec3 behind = was - s_, trail = behind - math::dot(behind, n_) * n_;
     const double press = math::norm(s_ - x), reach = math::norm(trail);
     if (!sliding_ && reach > settings_.friction_static * press) sliding_ = true;
-    if (sliding_ && std::atan2(reach, press) < 0.6 * std::atan(settings_.friction_kinetic))
+    if (sliding_ &&
+        math::angle_of(reach, press) < 0.6 * math::arctangent(settings_.friction_kinetic))
       sliding_ = false;
     const double allowed = sliding_ ? std::min(reach, settings_.friction_kinetic * press) : reach;
     if (allowed > 1e-9) {

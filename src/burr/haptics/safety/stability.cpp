@@ -7,6 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "burr/math/elementary.h"
+
 namespace burr::haptics {
 namespace {
 
@@ -21,7 +23,7 @@ Motion glide(const Motion& from, double force, double mass, double drag, double 
     return {from.place + from.velocity * time + 0.5 * a * time * time, from.velocity + a * time};
   }
   const double final_speed = force / drag;
-  const double faded = -std::expm1(-drag * time / mass);
+  const double faded = -math::exponential_minus_one(-drag * time / mass);
   const double excess = from.velocity - final_speed;
   return {from.place + final_speed * time + excess * faded * mass / drag,
           from.velocity - excess * faded};
@@ -70,8 +72,9 @@ class Sensor {
   Sensor(const AxisSettings& axis, double place)
       : step_(axis.encoder_step),
         dt_(1 / axis.rate_hz),
-        blend_(axis.velocity_filter_hz > 0 ? 1 - std::exp(-2 * M_PI * axis.velocity_filter_hz * dt_)
-                                           : 1.0),
+        blend_(axis.velocity_filter_hz > 0
+                   ? 1 - math::exponential(-2 * M_PI * axis.velocity_filter_hz * dt_)
+                   : 1.0),
         last_(counted(place)) {}
 
   Sensed read(double place) {
