@@ -94,7 +94,14 @@ void show_bone(const volume::TissueTable& tissues, double voxel_mm, double rate,
   v.tissue_count = tissues.tissues.size();
   const render::Camera camera = v.aim ? v.scene.camera : first_camera();
   const double voxel = 1e-3 * voxel_mm;
+  const std::vector<render::ScenePatch> before = std::exchange(v.scene.patches, {});
   v.scene = {};
+  // the renderer knows a patch by its number and its version: those of the bone before must differ
+  v.scene.patches.resize(before.size());
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    v.scene.patches[n].version = before[n].version + 1;
+    v.scene.changes.add(static_cast<int>(n));
+  }
   v.unlit.clear();
   v.voxel = voxel;
   v.changed_at.clear();

@@ -11,6 +11,7 @@ import math
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -185,6 +186,81 @@ def bone_hash(page):
     return page.run("burr.bone")
 
 
+def seek(page, seconds):
+    page.run(f"(() => {{ const time = document.getElementById('time'); time.value = {seconds};"
+             "time.dispatchEvent(new Event('input')); })()")
+    page.wait(f"Math.abs(burr.shown - {seconds}) < 0.02", WAIT)
+    page.wait("burr.refined()", WAIT)
+
+
+def show_the_saw(page, folder):
+    """A tool of the rack is drawn as what it is, not as a round burr."""
+    file = folder / "saw.mcap"
+    subprocess.run([BURR, "--quiet", "mill", "phantom:block", "--voxel-mm", "0.5", "--motion", "pocket", "--tool", "sagittal-saw",
+                    "--seconds", "1", "--record", file, "--embed"], capture_output=True, check=True)
+    page.choose("#file", file)
+    page.wait("burr.ready && burr.shown === 0", WAIT)
+    seek(page, 0.9)
+    saw = page.picture(PICTURES and PICTURES / "replay_saw.png")
+    pictures = page.run("burr.pictures")
+    page.run("burr.held(-1)")
+    page.wait(f"burr.pictures > {pictures} && burr.refined()", WAIT)
+    other = len(saw.different(page.picture(PICTURES and PICTURES / "replay_no_saw.png")))
+    check(other > 500, f"a saw is no round burr: {other} pixels differ")
+
+
+def two_bodies():
+    """A scan of a block and, apart from it, a cube of 6 mm around (9, 0, 0) mm, as NRRD."""
+    count, size = 64, 0.5
+    first = -size * (count - 1) / 2
+    places = [first + size * n for n in range(count)]
+    values = bytearray()
+    for z in places:
+        for y in places:
+            for x in places:
+                deep = max(min(8 - abs(x + 4), 8 - abs(y), 5 - abs(z)), min(3 - abs(x - 9), 3 - abs(y), 3 - abs(z)))
+                values += struct.pack("<h", int(max(-1000, min(1500, 250 + 1250 * deep)) + 7 * x))
+    return (f"NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: {count} {count} {count}\n"
+            f"space directions: ({size},0,0) (0,{size},0) (0,0,{size})\nspace origin: ({first},{first},{first})\n"
+            "kinds: domain domain domain\nendian: little\nencoding: raw\n\n").encode() + values
+
+
+def show_the_piece(page, folder):
+    """A piece of bone that a hand carries is blue, and where the hand carried it: from (9, 0, 0) to (13, 0, 8) mm."""
+    (folder / "two.nrrd").write_bytes(two_bodies())
+    (folder / "approach.csv").write_text("t,x_mm,y_mm,z_mm,spindle\n0,9,0,12,0\n1,9,0,12,0\n")
+    (folder / "carry.csv").write_text("t,x_mm,y_mm,z_mm,spindle\n0,9,0,12,0\n0.5,9,0,12,1\n2.5,13,0,20,1\n4,13,0,20,1\n")
+    file = folder / "piece.mcap"
+    subprocess.run([BURR, "--quiet", "mill", folder / "two.nrrd", "--iso", "250", "--voxel-mm", "0.5", "--path", folder / "approach.csv",
+                    "--arm", "rigid", "--carry-piece", f"9,0,0:{folder / 'carry.csv'}", "--record", file, "--embed"],
+                   capture_output=True, check=True)
+
+    def blue(name):
+        picture = page.picture(PICTURES and PICTURES / name)
+        high = page.run("document.getElementById('picture').clientHeight")
+        found = []
+        for y in range(min(high, picture.height)):
+            for x in range(picture.width):
+                red, green, light = picture.pixel(x, y)
+                if light > 90 and light > 1.2 * green and light > 1.8 * red:
+                    found.append((x, y))
+        return found
+
+    page.choose("#file", file)
+    page.wait("burr.ready && burr.shown === 0", WAIT)
+    seek(page, 1)
+    before = blue("replay_before_piece.png")
+    seek(page, 14.5)
+    at = blue("replay_piece.png")
+    check(not before and len(at) > 100, f"{len(before)} blue pixels before the piece is lifted, {len(at)} while it is carried")
+    corners = [page.run(f"burr.place({x}, {y}, {z})") for x in (0.010, 0.016) for y in (-0.003, 0.003) for z in (0.005, 0.011)]
+    for n, side in enumerate(("across", "down")):
+        found = [pick(one[n] for one in at) for pick in (min, max)] if at else [0, 0]
+        wanted = [pick(one[n] for one in corners) for pick in (min, max)]
+        check(all(abs(a - b) <= 3 for a, b in zip(found, wanted)),
+              f"it is where the hand carried it: {side} from {found[0]} to {found[1]} pixels, its corners from {wanted[0]:.1f} to {wanted[1]:.1f}")
+
+
 def replay(browser, site, recorded):
     """The page "replay" shows recordings of the program and of the page; the bone at the end is the program's, to the bit."""
     with tempfile.TemporaryDirectory() as folder:
@@ -222,6 +298,8 @@ def replay(browser, site, recorded):
             page.choose("#file", recorded)
             page.wait("burr.ready && burr.shown === 0", WAIT)
             check(page.run(f"burr.seconds >= {LEAST_TICKS / 1000}"), "the page's own recording opens too")
+        show_the_saw(page, pathlib.Path(folder))
+        show_the_piece(page, pathlib.Path(folder))
         bad_file = pathlib.Path(folder) / "bad.mcap"
         bad_file.write_bytes(file.read_bytes()[:1000])
         page.choose("#file", bad_file)

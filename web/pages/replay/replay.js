@@ -18,6 +18,11 @@ const burr = window.burr = {
   figures: {},
   refined: () => view.view_refined() === 1,
   hash: () => worker.postMessage({kind: 'hash', work}),  // gives burr.bone
+  place: (x, y, z) => [...view.numbers(view.view_place(x, y, z, 0), 2)],  // of a point [m], in the picture [pixel]
+  held: (tool) => {  // draws this tool of the recording; -1: the round burr
+    view.view_tool(tool);
+    dirty = true;
+  },
 };
 
 let view = null, worker = null;
