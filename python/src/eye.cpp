@@ -5,22 +5,26 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
-#include "burr/render/renderer.h"
 #include "burr/workshop/work_view.h"
 
 namespace burr::python {
 namespace {
 
-// One for all sessions, because SDL wants one thread; it stays until the process ends, since the
-// driver may be gone before Python's objects are.
-render::Renderer& renderer() {
-  static render::Renderer* const one = take(render::Renderer::offscreen()).release();
+// Renderers of sessions that ended on another thread: they end on that of the pictures.
+struct Left {
+  std::mutex mutex;
+  std::vector<std::unique_ptr<render::Renderer>> all;
+};
+Left& left() {
+  static Left* const one = new Left;  // it outlives all objects of Python
   return *one;
 }
 
@@ -37,11 +41,23 @@ Eye::Eye(sim::Session& session, const math::Vec3& at, const math::Vec3& outward)
       changed_(session.bone().add_watcher()),
       mesher_(session.bone()),
       looks_(session.settings().servo.tools),
-      scene_(workshop::scene_of_work(session.bone(), session.burr_radius(), at, outward)) {}
+      scene_(workshop::scene_of_work(session.bone(), session.burr_radius(), at, outward)) {
+  std::vector<std::unique_ptr<render::Renderer>> ended;
+  {
+    const std::lock_guard lock(left().mutex);
+    ended.swap(left().all);
+  }
+  renderer_ = take(render::Renderer::offscreen());
+}
+
+Eye::~Eye() {
+  if (!renderer_ || std::this_thread::get_id() == mine_) return;
+  const std::lock_guard lock(left().mutex);
+  left().all.push_back(std::move(renderer_));
+}
 
 render::Image Eye::look(const std::optional<tick::TickRow>& row, int width, int height,
                         Work& work) {
-  render::Renderer& draws = renderer();
   check(work.run([&]() -> Status {
     std::vector<int> patches;
     changed_.take_all([&](std::size_t brick) {
@@ -64,7 +80,7 @@ render::Image Eye::look(const std::optional<tick::TickRow>& row, int width, int 
     workshop::put_tool(scene_, *row, false);
     looks_.put(scene_, row->tool.number);
   }
-  return take(work.run([&] { return draws.image(scene_, width, height); }));
+  return take(work.run([&] { return renderer_->image(scene_, width, height); }));
 }
 
 py::array array_of(render::Image image, const std::string& path) {

@@ -6,9 +6,12 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <thread>
 
 #include "burr/base/progress.h"
 #include "burr/render/image.h"
+#include "burr/render/renderer.h"
 #include "burr/render/scene.h"
 #include "burr/rt/changed_bits.h"
 #include "burr/sim/session.h"
@@ -23,6 +26,9 @@ class Eye {
  public:
   // at, outward: where work begins, and the way to the one who looks.
   Eye(sim::Session& session, const math::Vec3& at, const math::Vec3& outward);
+  ~Eye();  // any thread
+  Eye(const Eye&) = delete;
+  Eye& operator=(const Eye&) = delete;
 
   // row: of the newest tick; none: no tool is drawn. Raises where nothing can be drawn.
   [[nodiscard]] render::Image look(const std::optional<tick::TickRow>& row, int width, int height,
@@ -34,6 +40,9 @@ class Eye {
   surface::Mesher mesher_;
   workshop::ToolLooks looks_;
   render::Scene scene_;
+  // Its own: a renderer knows patches by number and version, and those of two scenes are the same.
+  std::unique_ptr<render::Renderer> renderer_;
+  std::thread::id mine_ = std::this_thread::get_id();
   bool whole_ = false;
 };
 

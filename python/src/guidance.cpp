@@ -2,11 +2,13 @@
 // There are no fixtures that push the hand.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
 #include "burr/record/identity.h"
 #include "burr/scenario/open_lesson.h"
+#include "burr/sound/synth.h"
 #include "burr/workshop/allowed.h"
 #include "common.h"
 #include "scene.h"
@@ -51,11 +53,12 @@ py::dict allowed(const Scene& scene, const std::string& mode, std::uint32_t atte
   if (scene.work) feedback = take(scenario::lesson_of(*scene.work)).feedback;
   const workshop::Allowed all =
       workshop::allowed_in(identity.mode, feedback, workshop::guided_in(identity, feedback));
-  return py::dict("steps"_a = word_of(all.steps), "target"_a = all.target,
-                  "distance"_a = all.distance, "tone_below_mm"_a = 1e3 * all.tone_below,
-                  "injury"_a = word_of(all.injury), "technique"_a = all.technique,
-                  "back"_a = all.back, "measure"_a = all.measure, "colours"_a = all.colours,
-                  "see_through"_a = all.see_through, "marks"_a = all.marks);
+  return py::dict(
+      "steps"_a = word_of(all.steps), "target"_a = all.target, "distance"_a = all.distance,
+      "tone_below_mm"_a = 1e3 * std::min(all.tone_below, sound::SynthSettings{}.warn_from),
+      "injury"_a = word_of(all.injury), "technique"_a = all.technique, "back"_a = all.back,
+      "measure"_a = all.measure, "colours"_a = all.colours, "see_through"_a = all.see_through,
+      "marks"_a = all.marks);
 }
 
 }  // namespace

@@ -393,6 +393,7 @@ Session::~Session() {
     static_cast<void>(session_.release());
     static_cast<void>(recorder_.release());
     static_cast<void>(events_.release());
+    static_cast<void>(eye_.release());
     return;
   }
   events_.reset();

@@ -141,7 +141,6 @@ class Environment(unittest.TestCase):
         mine[tuple(slice(a - o, b - o) for a, b, o in zip(lo, hi, (k, j, i)))] = field[inside]
         np.testing.assert_array_equal(observation["patch"], mine)
         self.assertGreater(len(np.unique(mine)), 3)
-        # the picture shows what was cut: it is that of a session that was drawn only now
         self.assertTrue((observation["image"] != first).any())
         np.testing.assert_array_equal(env.session.picture(width=64, height=48), observation["image"])
         self.assertEqual(env.render().shape, (480, 640, 3))
@@ -170,6 +169,14 @@ class Environment(unittest.TestCase):
         thread.start()
         thread.join()
         self.assertIn("main thread", refused[0])
+        # a session that was drawn may end on any thread
+        kept = [session]
+        first = session.picture(width=64, height=48)
+        del session
+        thread = threading.Thread(target=kept.clear)
+        thread.start()
+        thread.join()
+        np.testing.assert_array_equal(self.task.scene.session().picture(width=64, height=48), first)
 
     def test_many_are_as_one(self):
         many = burr.env.Many(self.task, 3, threads=2, max_steps=12)

@@ -57,10 +57,34 @@ class Program(unittest.TestCase):
         before = session.picture(str(self.folder / "before.png"), width=160, height=120)
         self.assertEqual((self.folder / "before.png").read_bytes()[:4], b"\x89PNG")
         self.assertTrue((before != self.after).any())
-        for _ in range(20):  # the surface is mended step by step, and is then that of a surface made at once
+        for _ in range(20):
             session.step(100)
             drawn = session.picture(width=160, height=120)
         np.testing.assert_array_equal(drawn, self.after)
+
+    def test_a_picture_shows_what_was_cut(self):
+        scene = burr.Scene("phantom:block", burr_mm=4, voxel_mm=0.5)
+        lean, aside = (np.cos(0.5), np.sin(0.5), 0, 0), np.cross(scene.into, (0, 1.0, 0))
+
+        def picture(pedal, often):
+            session = scene.session()
+            session.hand(scene.at_m - 6e-3 * scene.into, lean, pedal, ticks=0)
+            session.step(600)
+            for n in range(12):
+                session.hand(scene.at_m + (-1) ** n * 4e-3 * aside + (-1.5e-3 + 2e-4 * n) * scene.into, ticks=150)
+                session.step(150)
+                if often:
+                    session.picture(width=160, height=120)
+            session.hand(scene.at_m - 15e-3 * scene.into + 10e-3 * aside, ticks=200)  # out of the way
+            session.step(200)
+            return session.picture(width=160, height=120).astype(int), session.outcome()["removed_mm3"]
+        groove, removed = picture(1, False)
+        self.assertGreater(removed, 5)
+        whole, nothing = picture(0, False)
+        self.assertEqual(nothing, 0)
+        self.assertGreater((np.abs(groove - whole).max(axis=2) > 10).sum(), 100)
+        # a surface that is mended step by step is the one that is made at once
+        np.testing.assert_array_equal(picture(1, True)[0], groove)
 
     def test_any_command(self):
         account = burr.program.run("mill", "phantom:block", "--burr-mm", 4, "--motion", "pocket", "--seconds", 1, "--json")

@@ -216,6 +216,17 @@ class SceneFile(unittest.TestCase):
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(words, done.stderr)
 
+    def test_what_a_mode_allows_is_that_of_the_window(self):
+        scene = burr.Scene("block", voxel_mm=1, burr_mm=6)
+        known = {mode: scene.allowed(mode) for mode in ("free", "learn", "practise", "exam")}  # the table of docs/window.md
+        self.assertEqual([one["tone_below_mm"] for one in known.values()], [5, 5, 1, 0])
+        self.assertEqual([one["distance"] for one in known.values()], [True, True, False, False])
+        self.assertEqual([one["injury"] for one in known.values()], ["sound", "stop", "sound", "silent"])
+        narrowed = burr.Scene.from_toml(scene.to_toml() + '\n[feedback]\nlearn = ["step"]\n')
+        self.assertFalse(narrowed.allowed("learn")["distance"])
+        with self.assertRaisesRegex(burr.Error, "free, learn, practise or exam"):
+            scene.allowed("play")
+
     def test_an_option_goes_before_the_file(self):
         scene = burr.Scene("phantom:block", burr_mm=4)
         scene.stiffness_n_per_m = 500
