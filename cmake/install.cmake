@@ -26,7 +26,7 @@ foreach(name ${BURR_PUBLIC})
   endif()
   list(APPEND to_install ${found})
 endforeach()
-list(FILTER to_install EXCLUDE REGEX "/scenario/(built_in|rack_text|read_lesson|read_texts|toml_reader)[.]h$")  # for their own room
+list(FILTER to_install EXCLUDE REGEX "/scenario/(built_in|rack_text|read_lesson|read_texts|read_tools|toml_reader)[.]h$")  # for their own room
 set(BURR_INSTALLED "")
 while(to_install)
   list(POP_FRONT to_install header)

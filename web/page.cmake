@@ -99,7 +99,7 @@ foreach(texts cases rubrics tools)
 endforeach()
 set(app ${PROJECT_SOURCE_DIR}/apps/burr)
 file(GLOB score CONFIGURE_DEPENDS ${src}/scoring/*.cpp ${src}/metrics/*.cpp ${src}/scenario/*.cpp ${app}/report/*.cpp)
-list(FILTER score EXCLUDE REGEX "/(report_pictures|recipe|case_text)\\.cpp$")
+list(FILTER score EXCLUDE REGEX "/(report_pictures|recipe|case_text|write_case)\\.cpp$")
 file(GLOB bones CONFIGURE_DEPENDS ${src}/phantom/*.cpp)
 list(REMOVE_ITEM bones ${phantom})
 burr_web_parts(burr_score_parts ${score} ${bones} ${src}/workshop/label_check.cpp ${src}/workshop/allowed.cpp

@@ -39,6 +39,8 @@ except ImportError:
             self._random = np.random.default_rng(seed)
 
         def sample(self) -> np.ndarray:
+            if np.issubdtype(self.dtype, np.integer):
+                return self._random.integers(self.low, self.high, dtype=self.dtype, endpoint=True)
             return self._random.uniform(self.low, self.high).astype(self.dtype)
 
         def contains(self, x: Any) -> bool:
@@ -66,6 +68,7 @@ MOST_MOVE_M = 0.5e-3  # of the tip in a step, along each axis
 MOST_TURN_RAD = math.radians(2)  # about each axis
 REACH_MM = 20.0  # of the distances that are observed
 RAMP_TICKS = 600  # after a start, in which forces begin slowly
+PATCH = 16  # edge of the observed field round the burr [voxel]
 
 
 @dataclasses.dataclass
@@ -109,11 +112,15 @@ class Task:
 class Env(_Base):
     """A session whose hand an agent moves. Action: 7 numbers, the move of the tip [m], its turn [rad], the pedal."""
 
-    metadata: dict[str, Any] = {"render_modes": []}
-    render_mode = None
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 50}
 
     def __init__(self, scene: burr.Scene | Task, *, reward: Callable[[Step], float] = default_reward, ticks: int = 20,
-                 max_steps: int = 1000, end_on_injury: bool = True, start_mm: float = 5.0, spread_mm: float = 2.0):
+                 max_steps: int = 1000, end_on_injury: bool = True, start_mm: float = 5.0, spread_mm: float = 2.0, patch: bool = False,
+                 image: tuple[int, int] | None = None, render_mode: str | None = None):
+        """patch: observe the field round the burr, 16^3; image: (width, height) of a picture to observe, drawn on the main thread."""
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise burr.Error(f'render_mode "{render_mode}" is not known; use "rgb_array" or None')
+        self.render_mode, self.patch, self.image = render_mode, patch, image
         self.task = scene if isinstance(scene, Task) else Task(scene)
         self.reward = reward
         self.ticks, self.max_steps, self.end_on_injury = ticks, max_steps, end_on_injury
@@ -127,6 +134,10 @@ class Env(_Base):
         free = {"pose": 7, "velocity": 3, "force": 3, "torque": 3}
         spaces = {name: Box(-np.inf, np.inf, (size,), np.float32) for name, size in free.items()}
         spaces["near"] = Box(-1.0, 1e-3 * REACH_MM, (many,), np.float32)
+        if patch:
+            spaces["patch"] = Box(0, 255, (PATCH,) * 3, np.uint8)
+        if image is not None:
+            spaces["image"] = Box(0, 255, (image[1], image[0], 3), np.uint8)
         self.observation_space = Dict(spaces)
         self.session = self.task.scene.session(rows=False)
         self._random = np.random.Generator(np.random.PCG64())
@@ -155,8 +166,9 @@ class Env(_Base):
         self.session.step(self.ticks)
         return self._judge()
 
-    def render(self) -> None:
-        """Nothing is drawn; `burr replay` makes pictures of a recording."""
+    def render(self) -> np.ndarray | None:
+        """With render_mode="rgb_array" a picture, (480, 640, 3) uint8; drawn off-screen, on Python's main thread."""
+        return self.session.picture() if self.render_mode == "rgb_array" else None
 
     def close(self) -> None:
         self._over = True
@@ -198,7 +210,12 @@ class Env(_Base):
     def _observe(self, row: Any) -> dict[str, np.ndarray]:
         proxy = row["proxy_m"]
         near = np.array([distance.at(proxy) for distance in self.task.near], np.float32)
-        return {"pose": np.concatenate((row["hand_m"], row["hand_q"])).astype(np.float32),
+        seen: dict[str, np.ndarray] = {}
+        if self.patch:
+            seen["patch"] = self.session.patch(edge=PATCH)
+        if self.image is not None:
+            seen["image"] = self.session.picture(width=self.image[0], height=self.image[1])
+        return {**seen, "pose": np.concatenate((row["hand_m"], row["hand_q"])).astype(np.float32),
                 "velocity": row["hand_v_m_per_s"].astype(np.float32), "force": row["force_n"].astype(np.float32),
                 "torque": row["torque_nm"].astype(np.float32), "near": np.minimum(near, np.float32(1e-3 * REACH_MM))}
 
@@ -210,6 +227,8 @@ class Many:
     """n environments of one scene, stepped in threads of this process. An episode that is over begins anew in the next step."""
 
     def __init__(self, scene: burr.Scene | Task, n: int, *, threads: int = 1, **options: Any):
+        if options.get("image") is not None:
+            raise burr.Error("pictures are drawn on Python's main thread alone, and Many steps in others; leave out image")
         task = scene if isinstance(scene, Task) else Task(scene)
         self.envs = [Env(task, **options) for _ in range(n)]
         self.num_envs = n

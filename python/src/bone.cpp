@@ -17,6 +17,7 @@
 #include "burr/volume/distance_to.h"
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/open_bone.h"
+#include "burr/workshop/prebuilt_phantom.h"
 #include "common.h"
 
 namespace burr::python {
@@ -513,6 +514,15 @@ void add_bone(py::module_& module) {
   bone.def("export", &export_bone, "path"_a, py::kw_only(), "part"_a = "bone",
            "before"_a = BonePtr(), "frame"_a = "lps", "largest"_a = false, "scan"_a = false,
            "progress"_a = py::none());
+  bone.def(
+      "save",
+      [](const BoneBox& box, const std::string& path) {
+        if (!workshop::is_whole_bone(path))
+          raise(fmt::format("{}: the name must end in .bone", path));
+        const py::gil_scoped_release others_may;
+        check(workshop::write_prebuilt_phantom(*box.bone, path));
+      },
+      "path"_a, "A .bone file, which holds the bone to the bit; load() reads it.");
   bone.def("__repr__", [](const BoneBox& box) {
     const math::Ijk size = box.bone->grid().size;
     return fmt::format("<burr.Bone {} x {} x {} voxels of {:.3f} mm>", size.x(), size.y(), size.z(),

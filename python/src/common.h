@@ -121,5 +121,6 @@ struct MeshBox {
 void add_bone(py::module_& module);
 void add_scene(py::module_& module);
 void add_recording(py::module_& module);
+void add_people(py::module_& module);
 
 }  // namespace burr::python

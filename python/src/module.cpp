@@ -115,4 +115,5 @@ PYBIND11_MODULE(_burr, module) {
   add_bone(module);
   add_scene(module);
   add_recording(module);
+  add_people(module);
 }

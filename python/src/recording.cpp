@@ -24,7 +24,7 @@ using namespace py::literals;
 class Recording {
  public:
   Recording(const std::string& path, std::string source)
-      : player_(take(record::Player::open(path))) {
+      : player_(take(record::Player::open(path))), path_(path) {
     given_.source = std::move(source);
   }
 
@@ -53,11 +53,14 @@ class Recording {
   py::dict score(const std::string& rubric, const py::object& call);
   py::dict replay(const py::object& call);
   [[nodiscard]] const record::Player& player() const { return *player_; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] const std::string& volume() const { return given_.source; }
 
  private:
   const volume::Bone& first(record::Player& player, Work& work);
 
   std::unique_ptr<record::Player> player_;
+  std::string path_;
   scenario::Recipe given_;
   std::unique_ptr<volume::Bone> before_;  // opened when first needed
   py::object ticks_;                      // read when first needed
@@ -255,6 +258,8 @@ void add_recording(py::module_& module) {
   py::class_<Recording> recording(module, "Recording", "A recording (.mcap).");
   recording.def(py::init<const std::string&, std::string>(), "path"_a, py::kw_only(),
                 "volume"_a = "", "volume: the scan it was made from, if burr does not find it.");
+  recording.def_property_readonly("path", &Recording::path);
+  recording.def_property_readonly("volume", &Recording::volume);
   recording.def_property_readonly("seconds",
                                   [](const Recording& self) { return self.player().seconds(); });
   recording.def_property_readonly(

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <numbers>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "burr/surgeon/motion.h"
 #include "burr/tick/flag_words.h"
 #include "burr/volume/copy_of_bone.h"
+#include "burr/workshop/case_session.h"
 #include "burr/workshop/mesh_shape.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
@@ -25,7 +27,10 @@
 #include "burr/workshop/recording.h"
 #include "burr/workshop/spared.h"
 #include "common.h"
+#include "events.h"
+#include "eye.h"
 #include "rows.h"
+#include "scene.h"
 
 namespace burr::python {
 namespace {
@@ -111,18 +116,6 @@ bool names_a_case(const std::string& source) {
          std::filesystem::path(source).extension() == ".toml";
 }
 
-struct Scene {
-  BonePtr bone;
-  std::optional<scenario::Case> work;
-  // as `burr mill` has them, in its units, so that one scene gives one hash
-  double burr_mm = 5, rpm = 40000, rate_hz = 1000, stiffness_n_per_m = 1000, drag = 1,
-         vibration = 0, torque_mnm = 1e3 * tool::Motor{}.torque;
-  bool diamond = false, guarded = false, irrigated = false;
-  int teeth = tool::Burr{}.teeth, threads = 1;
-  std::string tool, tools, touch = "constraint", removal = "energy";
-  std::size_t undo_bricks = tick::ServoSettings{}.undo_bricks;
-};
-
 Scene make_scene(const py::object& source, const py::object& name, std::uint32_t number,
                  const py::object& burr_mm, const py::object& rpm, const py::object& tool,
                  const std::string& tools, double voxel_mm, const std::string& materials,
@@ -147,27 +140,58 @@ Scene make_scene(const py::object& source, const py::object& name, std::uint32_t
     } else if (number != 0) {
       raise("bone_number: only a case has other bones; name a case as the source");
     }
-    Work work(call);
-    auto made = take(work.run([&] { return workshop::open_bone(recipe, work); }));
-    scene.bone = box(std::move(made.bone));
-    scene.bone->recipe = recipe;
-    scene.bone->format = made.summary.format;
-    scene.bone->notices = std::move(made.summary.notices);
+    open_bone(scene, recipe, call);
   }
-  if (scene.work) {
-    check(scenario::check_tissues(*scene.work, scene.bone->bone->tissues()));
-    scene.burr_mm = 2e3 * scene.work->burr.radius;
-    scene.rpm = scene.work->full_speed * 60 / (2 * kPi);
-    scene.diamond = burr_mm.is_none() && scene.work->burr.kind == tool::BurrKind::diamond;
-    if (burr_mm.is_none()) scene.tool = scene.work->tool;
-    if (burr_mm.is_none())
-      workshop::fit_burr(scene.burr_mm, scene.bone->bone->grid().voxel, scene.bone->notices);
-  }
+  take_work(scene, burr_mm.is_none());
   if (!burr_mm.is_none()) scene.burr_mm = burr_mm.cast<double>();
   if (!rpm.is_none()) scene.rpm = rpm.cast<double>();
   if (!tool.is_none()) scene.tool = tool.cast<std::string>();
   return scene;
 }
+
+}  // namespace
+
+void open_bone(Scene& scene, const scenario::Recipe& recipe, const py::object& call) {
+  Work work(call);
+  auto made = take(work.run([&] { return workshop::open_bone(recipe, work); }));
+  scene.bone = box(std::move(made.bone));
+  scene.bone->recipe = recipe;
+  scene.bone->format = made.summary.format;
+  scene.bone->notices = std::move(made.summary.notices);
+}
+
+void take_work(Scene& scene, bool own_burr) {
+  if (!scene.work) return;
+  const scenario::Case& work = *scene.work;
+  check(scenario::check_tissues(work, scene.bone->bone->tissues()));
+  scene.title = work.title;
+  scene.motion = work.motion;
+  scene.seconds = work.seconds;
+  scene.burr_mm = scenario::burr_mm(work);
+  scene.rpm = scenario::rpm(work);
+  scene.diamond = own_burr && work.burr.kind == tool::BurrKind::diamond;
+  if (own_burr) {
+    scene.tool = work.tool;
+    workshop::fit_burr(scene.burr_mm, scene.bone->bone->grid().voxel, scene.bone->notices);
+  }
+  if (!work.session) return;
+  tick::ServoSettings tried;
+  check(workshop::take_session(work, tried));
+  const scenario::SessionWish& wish = *work.session;
+  if (!wish.touch.empty()) scene.touch = wish.touch;
+  if (!wish.removal.empty()) scene.removal = wish.removal;
+  scene.rate_hz = wish.rate_hz.value_or(scene.rate_hz);
+  scene.stiffness_n_per_m = wish.stiffness_n_per_m.value_or(scene.stiffness_n_per_m);
+  scene.drag = wish.drag.value_or(scene.drag);
+  scene.vibration = wish.vibration.value_or(scene.vibration);
+  scene.torque_mnm = wish.torque_mnm.value_or(scene.torque_mnm);
+  if (wish.teeth) scene.teeth = static_cast<int>(*wish.teeth);
+  if (wish.undo_bricks) scene.undo_bricks = static_cast<std::size_t>(*wish.undo_bricks);
+  scene.guarded = wish.guard.value_or(scene.guarded);
+  scene.irrigated = wish.irrigation.value_or(scene.irrigated);
+}
+
+namespace {
 
 sim::SessionSettings settings_of(const Scene& scene) {
   sim::SessionSettings settings;
@@ -195,9 +219,11 @@ sim::SessionSettings settings_of(const Scene& scene) {
   servo.undo_bricks = scene.undo_bricks;
   servo.irrigated = scene.irrigated;
   if (!scene.tool.empty()) {
-    const scenario::Rack rack = scene.tools.empty()
-                                    ? scenario::built_in_rack()
-                                    : take(scenario::read_rack(scene.tools, workshop::mesh_shape));
+    scenario::Rack rack = scene.tools.empty()
+                              ? scenario::built_in_rack()
+                              : take(scenario::read_rack(scene.tools, workshop::mesh_shape));
+    if (scene.work)
+      for (const scenario::RackTool& own : scene.work->own_tools) rack.put(own);
     const scenario::RackTool tool = take(rack.get(scene.tool));
     servo.tools = {{tool.name, tool.tool, tool.cutter}};
     servo.tool = 0;
@@ -262,6 +288,12 @@ class Session {
   void reset_to(const Snapshot* snapshot);
   py::dict outcome();
   void command(tick::CommandKind kind, double value = 0);
+  // Drawn off-screen; eye.h.
+  py::array picture(const std::string& path, int width, int height);
+  py::array patch(const py::object& p, int edge);
+  // Tells a function of Python what happens; events.h.
+  void on(Wanted wanted);
+  [[nodiscard]] Events* events() const { return events_.get(); }
   std::uint64_t ticks();
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] double rate() const { return session_->settings().servo.rate_hz; }
@@ -269,8 +301,18 @@ class Session {
 
  private:
   void start_recording(const Scene& scene, const Hand& hand, bool embed);
+  std::uint64_t make_ticks(std::uint64_t ticks);
+  void finish();
   void sort_voxels(sim::Session& session);
+  void note();           // after each tick
+  void look_at_steps();  // while the session stands
 
+  BonePtr whole_;  // the bone before the first cut
+  std::optional<scenario::Case> work_;
+  std::unique_ptr<Events> events_;
+  std::unique_ptr<Eye> eye_;
+  std::function<surgeon::WorkPlace()> place_;  // for pictures
+  rt::Latest<tick::TickRow> watch_;
   std::unique_ptr<sim::Session> session_;
   std::unique_ptr<record::Recorder> recorder_;
   device::PushedHand* pushed_ = nullptr;
@@ -284,6 +326,7 @@ class Session {
   tick::TickRow newest_;
   double pedal_ = 0;
   std::uint32_t buttons_ = 0;
+  std::uint64_t made_ = 0;  // ticks, at the end of the last step()
   py::dtype row_type_ = row_type();
   std::shared_ptr<const int> mark_ = std::make_shared<const int>(0);
 };
@@ -297,7 +340,11 @@ Session::Use::Use(Session& session, bool to_tick) : session_(session) {
 
 Session::Session(const Scene& scene, const Hand& hand, const std::string& record, bool embed,
                  bool force, bool rows, bool voxels, const py::object& call)
-    : file_(record), keeps_voxels_(voxels), keeps_rows_(rows) {
+    : whole_(scene.bone),
+      work_(scene.work),
+      file_(record),
+      keeps_voxels_(voxels),
+      keeps_rows_(rows) {
   std::error_code nobody_asks;
   if (!record.empty() && !force && std::filesystem::exists(record, nobody_asks))
     raise(fmt::format("{} exists; give force=True to replace it", record));
@@ -319,8 +366,12 @@ Session::Session(const Scene& scene, const Hand& hand, const std::string& record
     return sim::Session::make(volume::copy_of(*scene.bone->bone), std::move(device), settings,
                               work);
   }));
+  Scene without_functions = scene;
+  without_functions.wanted.clear();
+  place_ = [mine = std::move(without_functions)] { return place_of(mine); };
   if (!record.empty()) start_recording(scene, hand, embed);
   if (rows || voxels) session_->keep_in_memory(rows, voxels);
+  for (const Wanted& wanted : scene.wanted) on(wanted);
 }
 
 void Session::start_recording(const Scene& scene, const Hand& hand, bool embed) {
@@ -341,8 +392,11 @@ Session::~Session() {
   if (getpid() != process_) {  // its threads are in the other process: nobody would end them
     static_cast<void>(session_.release());
     static_cast<void>(recorder_.release());
+    static_cast<void>(events_.release());
+    static_cast<void>(eye_.release());
     return;
   }
+  events_.reset();
   const py::gil_scoped_release others_may;
   if (recorder_) {
     session_->settle();
@@ -354,6 +408,15 @@ Session::~Session() {
 
 void Session::close() {
   if (closed_) return;
+  if (events_) {
+    look_at_steps();
+    events_->stop(true);  // nothing is locked: what waits is told, and may look at the session
+  }
+  finish();
+  if (events_) events_->raise_what_failed();
+}
+
+void Session::finish() {
   Use use(*this);
   closed_ = true;
   if (!recorder_) return;
@@ -367,12 +430,76 @@ void Session::close() {
   if (!written) throw Raised(written.error());
 }
 
+py::array Session::picture(const std::string& path, int width, int height) {
+  only_main_thread();
+  Use use(*this);
+  if (!eye_) {
+    const surgeon::WorkPlace place = place_();
+    eye_ = std::make_unique<Eye>(*use, place.at, -place.into);
+  }
+  tick::TickRow now;
+  if (use->view(now)) newest_ = now;
+  Work work;
+  const auto row = use->ticks() > 0 ? std::optional(newest_) : std::nullopt;
+  return array_of(eye_->look(row, width, height, work), path);
+}
+
+py::array Session::patch(const py::object& p, int edge) {
+  Use use(*this);
+  tick::TickRow now;
+  if (use->view(now)) newest_ = now;
+  if (p.is_none() && use->ticks() == 0) raise("the burr is nowhere yet; give p, or step() first");
+  return patch_of(use->bone(), p.is_none() ? newest_.contact.proxy : vec3_of(p, "p"), edge);
+}
+
+void Session::on(Wanted wanted) {
+  Use use(*this, true);
+  if (!events_) {
+    events_ = std::make_unique<Events>(whole_, work_);
+    use->set_watch(&watch_);
+    use->set_between_ticks([this] { note(); }, 1);
+  }
+  events_->add(std::move(wanted), keeps_voxels_);
+}
+
+void Session::note() {
+  tick::TickRow row;
+  if (watch_.take(row)) events_->note(row);
+  if (!keeps_voxels_) return;
+  const std::size_t out = out_.size();
+  sort_voxels(*session_);
+  for (std::size_t n = out; n < out_.size(); ++n) events_->note(out_[n]);
+}
+
+void Session::look_at_steps() {
+  if (!events_->watches_steps()) return;
+  Use use(*this);
+  std::unique_ptr<volume::Bone> now;
+  {
+    const py::gil_scoped_release others_may;
+    now = volume::copy_of(use->bone());
+  }
+  events_->look(std::move(now), use->ticks());
+}
+
 std::uint64_t Session::step(std::uint64_t ticks) {
+  if (events_) events_->raise_what_failed();
+  const std::uint64_t made = make_ticks(ticks);
+  if (events_ && events_->wants_bone(made_)) look_at_steps();
+  return made;
+}
+
+std::uint64_t Session::make_ticks(std::uint64_t ticks) {
   Use use(*this, true);
   if (pushed_ != nullptr && !placed_)
     raise("nobody said where the hand is; call hand() before the first step()");
   Work work;
-  const std::uint64_t made = work.run([&] { return use->step(ticks, work); });
+  const std::uint64_t made = work.run([&] {
+    const std::uint64_t done = use->step(ticks, work);
+    if (events_) note();
+    return done;
+  });
+  made_ = use->ticks();
   {
     const std::lock_guard lock(trouble_mutex_);
     if (!trouble_.empty()) raise(std::exchange(trouble_, {}));
@@ -462,9 +589,11 @@ void Session::reset_to(const Snapshot* snapshot) {
     done = use->reset_to(snapshot != nullptr ? snapshot->state : edit::BoneState());
   }
   check(done);
+  if (events_) events_->start_over();
   out_.clear();
   in_.clear();
   newest_ = {};
+  made_ = 0;
   placed_ = false;
   pedal_ = 0;
   buttons_ = 0;
@@ -497,6 +626,62 @@ double mode_named(const std::string& name) {
   raise(fmt::format("mode \"{}\" is not known; use cut, add, touch, restore or smooth", name));
 }
 
+// Python's collector finds functions that hold the object which holds them.
+int visit_all(const Session& session, visitproc told, void* arg) {
+  return session.events() != nullptr ? session.events()->visit(told, arg) : 0;
+}
+int visit_all(const Scene& scene, visitproc told, void* arg) {
+  for (const Wanted& wanted : scene.wanted)
+    if (const int stop = told(wanted.call.ptr(), arg); stop != 0) return stop;
+  return 0;
+}
+void forget(Session& session) {
+  if (session.events() != nullptr) session.events()->forget();
+}
+void forget(Scene& scene) { scene.wanted.clear(); }
+
+template <class Type>
+Type* held_by(PyObject* self) {
+  auto* instance = reinterpret_cast<py::detail::instance*>(self);
+  return static_cast<Type*>(instance->get_value_and_holder().value_ptr());
+}
+
+template <class Type>
+py::custom_type_setup seen_by_collector() {
+  return py::custom_type_setup([](PyHeapTypeObject* made) {
+    PyTypeObject& type = made->ht_type;
+    type.tp_flags |= Py_TPFLAGS_HAVE_GC;
+    type.tp_traverse = [](PyObject* self, visitproc told, void* arg) -> int {
+      if (const int stop = told(reinterpret_cast<PyObject*>(Py_TYPE(self)), arg); stop != 0)
+        return stop;
+      const Type* held = held_by<Type>(self);
+      if (held == nullptr) return 0;
+      return visit_all(*held, told, arg);
+    };
+    type.tp_clear = [](PyObject* self) -> int {
+      if (Type* held = held_by<Type>(self)) forget(*held);
+      return 0;
+    };
+  });
+}
+
+void want(Session& session, Wanted wanted) { session.on(std::move(wanted)); }
+void want(Scene& scene, Wanted wanted) { scene.wanted.push_back(std::move(wanted)); }
+
+template <class Type>
+void add_on(py::class_<Type>& type) {
+  type.def(
+      "on",
+      [](Type& self, const std::string& event, const py::object& call, const py::object& label,
+         const py::object& structure, const py::object& mm, const py::object& step) {
+        want(self, wanted_of(event, call, label, structure, mm, step));
+      },
+      "event"_a, "call"_a, py::kw_only(), "label"_a = py::none(), "structure"_a = py::none(),
+      "mm"_a = py::none(), "step"_a = py::none(),
+      "Calls a function with an Event, on a helper thread: touch, leave, removed, near, "
+      "step_reached.");
+}
+
 void add_hand(py::module_& module) {
   py::class_<Hand>(module, "Hand", "Who holds the tool.")
       .def_static(
@@ -524,7 +709,9 @@ void add_hand(py::module_& module) {
 
 void add_session(py::module_& module) {
   py::class_<Snapshot>(module, "Snapshot", "A bone as it was in a session, for reset_to().");
-  py::class_<Session> session(module, "Session", "A scene with a hand, moved by step().");
+  py::class_<Session> session(module, "Session", "A scene with a hand, moved by step().",
+                              seen_by_collector<Session>());
+  add_on(session);
   session.def(
       "step", &Session::step, "ticks"_a = 1,
       "Makes so many ticks without the GIL; returns how many: fewer when the hand has finished.");
@@ -544,6 +731,10 @@ void add_session(py::module_& module) {
   session.def("reset_to", &Session::reset_to, "snapshot"_a = py::none(),
               "Puts the bone back (None: to the beginning) and starts over at tick 0.");
   session.def("outcome", &Session::outcome);
+  session.def("picture", &Session::picture, "path"_a = "", py::kw_only(), "width"_a = 640,
+              "height"_a = 480, "(height, width, 3) uint8, drawn off-screen; path: a .png too.");
+  session.def("patch", &Session::patch, "p"_a = py::none(), py::kw_only(), "edge"_a = 16,
+              "The field round the burr: (edge, edge, edge) uint8, 128 is the surface.");
   session.def_property_readonly("ticks", &Session::ticks);
   session.def_property_readonly(
       "seconds", [](Session& self) { return static_cast<double>(self.ticks()) / self.rate(); });
@@ -594,7 +785,12 @@ void add_session(py::module_& module) {
 void add_scene(py::module_& module) {
   add_hand(module);
   add_session(module);
-  py::class_<Scene> scene(module, "Scene", "A bone, a case, a tool and their settings.");
+  add_events(module);
+  py::class_<Scene> scene(module, "Scene", "A bone, a case, a tool and their settings.",
+                          seen_by_collector<Scene>());
+  add_on(scene);
+  add_scene_file(scene);
+  add_guidance(scene);
   scene.def(py::init(&make_scene), "source"_a, py::kw_only(), "case"_a = py::none(),
             "bone_number"_a = 0, "burr_mm"_a = py::none(), "rpm"_a = py::none(),
             "tool"_a = py::none(), "tools"_a = "", "voxel_mm"_a = 0.0, "materials"_a = "",
@@ -603,8 +799,9 @@ void add_scene(py::module_& module) {
   scene.def_property_readonly("case", [](const Scene& self) -> py::object {
     return self.work ? py::object(py::str(self.work->name)) : py::object(py::none());
   });
-  scene.def_property_readonly("title",
-                              [](const Scene& self) { return self.work ? self.work->title : ""; });
+  scene.def_readwrite("title", &Scene::title);
+  scene.def_readwrite("motion", &Scene::motion);
+  scene.def_readwrite("seconds", &Scene::seconds);
   scene.def_property_readonly("spare", [](const Scene& self) {
     std::vector<std::string> names;
     for (const volume::TissueId id : workshop::to_spare(

@@ -1,4 +1,5 @@
 """burr.env: shapes, bounds, seeds, ends, and many environments at once."""
+import threading
 import unittest
 
 import numpy as np
@@ -119,6 +120,63 @@ class Environment(unittest.TestCase):
         self.assertAlmostEqual(total, voxels[1] * 0.25 ** 3)
         step = burr.env.Step(None, np.array([0, 64]), 1.0, 2, True, 5.0)
         self.assertAlmostEqual(burr.env.default_reward(step), 1 - 2000 - 1000 - 0.3 - 0.01)
+
+    def test_a_patch_and_a_picture_can_be_observed(self):
+        env = burr.env.Env(self.task, patch=True, image=(64, 48), render_mode="rgb_array", max_steps=60, end_on_injury=False)
+        observation, _ = env.reset(seed=3)
+        self.assertTrue(env.observation_space.contains(observation))
+        self.assertEqual((observation["patch"].shape, observation["patch"].dtype), ((16, 16, 16), np.dtype(np.uint8)))
+        self.assertEqual((observation["image"].shape, observation["image"].dtype), ((48, 64, 3), np.dtype(np.uint8)))
+        first = observation["image"]
+        self.assertGreater(first.std(), 5)  # there is something to see
+        for _ in range(25):
+            observation, *_ = env.step(down(env))
+            self.assertTrue(env.observation_space.contains(observation))
+        # the patch is the field round the burr, z y x
+        bone, row = env.session.bone(), env.session.row
+        field, (i, j, k) = bone.field() >> 8, np.rint(bone.index_from_world(row["proxy_m"])).astype(int) - 8
+        mine = np.zeros((16, 16, 16), np.uint8)
+        lo, hi = np.maximum((k, j, i), 0), np.minimum((k + 16, j + 16, i + 16), field.shape)
+        inside = tuple(slice(a, b) for a, b in zip(lo, hi))
+        mine[tuple(slice(a - o, b - o) for a, b, o in zip(lo, hi, (k, j, i)))] = field[inside]
+        np.testing.assert_array_equal(observation["patch"], mine)
+        self.assertGreater(len(np.unique(mine)), 3)
+        self.assertTrue((observation["image"] != first).any())
+        np.testing.assert_array_equal(env.session.picture(width=64, height=48), observation["image"])
+        self.assertEqual(env.render().shape, (480, 640, 3))
+        again, _ = env.reset(seed=3)
+        np.testing.assert_array_equal(again["image"], first)  # the bone is whole again in the picture too
+        self.assertTrue(env.observation_space["patch"].contains(env.observation_space["patch"].sample()))
+        env.close()
+        for call, words in [(lambda: burr.env.Env(self.task, render_mode="human"), "rgb_array"),
+                            (lambda: burr.env.Many(self.task, 2, image=(64, 48)), "main thread")]:
+            with self.assertRaisesRegex(burr.Error, words):
+                call()
+        many = burr.env.Many(self.task, 2, threads=2, patch=True)
+        self.assertEqual(many.reset(seed=1)[0]["patch"].shape, (2, 16, 16, 16))
+        many.close()
+
+    def test_pictures_are_for_the_main_thread(self):
+        session = self.task.scene.session()
+        refused = []
+
+        def draw():
+            try:
+                session.picture()
+            except burr.Error as error:
+                refused.append(str(error))
+        thread = threading.Thread(target=draw)
+        thread.start()
+        thread.join()
+        self.assertIn("main thread", refused[0])
+        # a session that was drawn may end on any thread
+        kept = [session]
+        first = session.picture(width=64, height=48)
+        del session
+        thread = threading.Thread(target=kept.clear)
+        thread.start()
+        thread.join()
+        np.testing.assert_array_equal(self.task.scene.session().picture(width=64, height=48), first)
 
     def test_many_are_as_one(self):
         many = burr.env.Many(self.task, 3, threads=2, max_steps=12)

@@ -21,7 +21,9 @@ def parameters(function):
 
 
 def told(function):
-    """The same of a function in the module, as pybind11 prints it."""
+    """The same of a function in the module, as pybind11 prints it, or of Python."""
+    if inspect.isfunction(function):
+        return [(one.name, one.kind == one.KEYWORD_ONLY) for one in inspect.signature(function).parameters.values() if one.name != "self"]
     line = function.__doc__.splitlines()[0]
     inside = line[line.index("(") + 1:line.rindex(") ->")]
     names, named = [], False

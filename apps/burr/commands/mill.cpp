@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "batch/row_command.h"
@@ -25,6 +27,7 @@
 #include "burr/surgeon/plane_cut.h"
 #include "burr/tick/flag_words.h"
 #include "burr/tick/mirror_plane.h"
+#include "burr/workshop/case_session.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
@@ -65,11 +68,34 @@ struct Options {
   bool guarded = false, heat = false, irrigated = false;
   bool realtime = false, embed = false, json = false, diamond = false, force = false;
   bool burr_given = false, rpm_given = false, seconds_given = false;
+  std::set<std::string> given;              // names of the options on the command line
   std::optional<scenario::Case> work_case;  // if the volume is one
 };
 
 constexpr std::string_view kStepMotion = "step:";
 constexpr double kStepSeconds = 240;  // of a cut along a plane, if nobody says how long
+
+// What [session] of the case says, unless the options do.
+Status take_session(Options& options, const scenario::Case& work) {
+  if (!work.session) return fine();
+  tick::ServoSettings tried;
+  if (const Status set = workshop::take_session(work, tried); !set) return set;
+  const scenario::SessionWish& wish = *work.session;
+  const auto open = [&](const char* option) { return !options.given.contains(option); };
+  if (!wish.touch.empty() && open("--touch")) options.touch = wish.touch;
+  if (!wish.removal.empty() && open("--removal")) options.removal = wish.removal;
+  if (wish.rate_hz && open("--rate")) options.rate_hz = *wish.rate_hz;
+  if (wish.stiffness_n_per_m && open("--stiffness")) options.stiffness = *wish.stiffness_n_per_m;
+  if (wish.drag && open("--drag")) options.drag = *wish.drag;
+  if (wish.vibration && open("--vibration")) options.vibration = *wish.vibration;
+  if (wish.torque_mnm && open("--torque-mnm")) options.torque_mnm = *wish.torque_mnm;
+  if (wish.teeth && open("--teeth")) options.teeth = static_cast<int>(*wish.teeth);
+  if (wish.undo_bricks && open("--undo-bricks"))
+    options.undo_bricks = static_cast<std::size_t>(*wish.undo_bricks);
+  if (wish.guard && open("--guard")) options.guarded = *wish.guard;
+  if (wish.irrigation && open("--irrigation")) options.irrigated = *wish.irrigation;
+  return fine();
+}
 
 // A case says what is milled and, unless the options do, with which burr, where, and which way in.
 Status take_case(Options& options) {
@@ -77,8 +103,8 @@ Status take_case(Options& options) {
   auto work = scenario::read_case(options.volume.source);
   if (!work) return work.error();
   options.volume = workshop::recipe_of(*work, options.volume);
-  if (!options.burr_given) options.burr_mm = 2e3 * work->burr.radius;
-  if (!options.rpm_given) options.rpm = work->full_speed * 60 / (2 * std::numbers::pi);
+  if (!options.burr_given) options.burr_mm = scenario::burr_mm(*work);
+  if (!options.rpm_given) options.rpm = scenario::rpm(*work);
   options.diamond =
       options.diamond || (!options.burr_given && work->burr.kind == tool::BurrKind::diamond);
   if (options.tool.tool.empty() && !options.burr_given) options.tool.tool = work->tool;
@@ -86,6 +112,8 @@ Status take_case(Options& options) {
     options.at_mm = {1e3 * work->at->x(), 1e3 * work->at->y(), 1e3 * work->at->z()};
   if (options.into.empty() && work->into)
     options.into = {work->into->x(), work->into->y(), work->into->z()};
+  options.tool.own = work->own_tools;
+  if (const Status set = take_session(options, *work); !set) return set;
   options.work_case = std::move(*work);
   return fine();
 }
@@ -696,12 +724,17 @@ void add_mill(CLI::App& app, const std::function<void(std::shared_ptr<const Opti
   add_results(command, options);
   add_picture_size(*command, options->size);
   add_volume_options(*command, options->volume);
-  command->callback([options, touch, burr, rpm, seconds, chosen] {
+  command->callback([options, command, touch, burr, rpm, seconds, chosen] {
+    for (const CLI::Option* option : command->get_options())
+      if (!option->empty()) options->given.insert(option->get_name());
     options->burr_given = !burr->empty();
     options->rpm_given = !rpm->empty();
     options->seconds_given = !seconds->empty();
     // two tools feel each other where all their parts do
-    if (!options->tool.second.empty() && touch->empty()) options->touch = "shaft";
+    if (!options->tool.second.empty() && touch->empty()) {
+      options->touch = "shaft";
+      options->given.insert("--touch");
+    }
     chosen(options);
   });
 }

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -24,6 +26,8 @@
 #include "burr/serve/guard.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/rows.h"
+#include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/seen.h"
 #include "burr/workshop/spared.h"
@@ -122,10 +126,26 @@ Summary summary_of(sim::Session& session, const std::string& what, const std::st
   return summary;
 }
 
-// the tool in its last state of the session
-void put_tool_of(render::Scene& scene, sim::Session& session) {
+// The bone and the tool at half time, kept while the session goes on: a session that stops and goes on
+// again lets its forces rise anew, and would give another hash than the same motion elsewhere.
+struct HalfTime {
+  std::unique_ptr<volume::Bone> bone;
   tick::TickRow row;
-  if (!session.view(row)) return;
+  void wait_in(sim::Session& session, double seconds) {
+    const auto ticks =
+        static_cast<std::uint64_t>(std::llround(0.5 * seconds * session.settings().servo.rate_hz));
+    if (ticks == 0) return;
+    session.set_between_ticks(
+        [this, &session, ticks] {
+          if (session.ticks() != ticks) return;
+          static_cast<void>(session.view(row));
+          bone = volume::copy_of(session.bone());
+        },
+        ticks);
+  }
+};
+
+void put_tool_of(render::Scene& scene, const sim::Session& session, const tick::TickRow& row) {
   workshop::put_tool(scene, row, true);
   workshop::ToolLooks(session.settings().servo.tools).put(scene, row.tool.number);
 }
@@ -165,8 +185,8 @@ Status run_headless(const Options& options) {
   if (!renderer) return renderer.error();
   render::Scene scene = workshop::scene_of_work(session.bone(), settings.servo.burr.radius,
                                                 work.place.at, -work.place.into);
-  const auto picture = [&](const char* name) -> Status {
-    const Status skinned = render::skin_bone(scene, session.bone(), settings.threads, progress());
+  const auto picture = [&](const char* name, const volume::Bone& bone) -> Status {
+    const Status skinned = render::skin_bone(scene, bone, settings.threads, progress());
     if (!skinned) return skinned;
     const auto image = (*renderer)->image(scene, kWidth, kHeight);
     if (!image) return image.error();
@@ -176,7 +196,7 @@ Status run_headless(const Options& options) {
     return interrupted() ? Status(error(Trouble::interrupted, "stopped")) : fine();
   };
 
-  Status status = picture("before.png");
+  Status status = picture("before.png", session.bone());
   if (!status) return status;
   Recording recording;
   recording.remember_scan_in(users_scan_list());
@@ -186,23 +206,23 @@ Status run_headless(const Options& options) {
       false, workshop::to_spare(session.bone_tissues(), requested.spare), requested.work_case);
   if (!status) return status;
   if (recording.diary() != nullptr) recording.diary()->look(sight_of(scene));
-  session.run(0.5 * seconds, progress());
-  put_tool_of(scene, session);
+  HalfTime half;
+  half.wait_in(session, seconds);
+  session.run(seconds, progress());
   status = stopped();
-  if (status) status = picture("working.png");
+  if (status && half.bone) {
+    put_tool_of(scene, session, half.row);
+    status = picture("working.png", *half.bone);
+  }
   scene.burr.visible = false;
   scene.markers.clear();
   scene.rods.clear();
-  if (status) {
-    session.run(0.5 * seconds, progress());
-    status = stopped();
-  }
   const Status recorded = recording.finish(session);
   if (!status) return status;
   Summary summary = summary_of(session, work.what, "simulated hand, " + requested.motion);
   if (requested.work_case) summary.task = scenario::task_text(*requested.work_case);
   if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
-  status = picture("after.png");
+  status = picture("after.png", session.bone());
   if (!status) return recorded ? status : recorded;
 
   summary.pictures = {

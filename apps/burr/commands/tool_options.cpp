@@ -9,8 +9,14 @@ namespace burr::app {
 namespace {
 
 Result<scenario::Rack> rack_of(const ToolOptions& options) {
-  if (!options.tools.empty()) return scenario::read_rack(options.tools, workshop::mesh_shape);
-  return scenario::Rack(scenario::built_in_rack());
+  scenario::Rack rack = scenario::built_in_rack();
+  if (!options.tools.empty()) {
+    auto read = scenario::read_rack(options.tools, workshop::mesh_shape);
+    if (!read) return read.error();
+    rack = std::move(*read);
+  }
+  for (const scenario::RackTool& tool : options.own) rack.put(tool);
+  return rack;
 }
 
 }  // namespace

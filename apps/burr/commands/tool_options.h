@@ -17,6 +17,8 @@ struct ToolOptions {
   std::string tools;  // a TOML list of tools of one's own; empty: none
   // of the rack, in the second hand; empty: a suction tube
   std::string second = {};
+  // of a case, before those of the rack
+  std::vector<scenario::RackTool> own = {};
 };
 
 // --tool, --tools

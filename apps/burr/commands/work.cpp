@@ -1,6 +1,7 @@
 #include "commands/work.h"
 #include "burr/base/printable.h"
 #include "burr/phantom/phantoms.h"
+#include "burr/workshop/case_session.h"
 #include "burr/workshop/other_bone.h"
 #include "report/scored.h"
 
@@ -66,8 +67,8 @@ Status take_case(WorkOptions& options) {
 void take_case(WorkOptions& options, const scenario::Case& work) {
   scenario::Recipe& volume = options.volume;
   volume = workshop::recipe_of(work, volume);
-  if (options.burr_mm == 0) options.burr_mm = 2e3 * work.burr.radius;
-  if (options.rpm == 0) options.rpm = work.full_speed * 60 / (2 * std::numbers::pi);
+  if (options.burr_mm == 0) options.burr_mm = scenario::burr_mm(work);
+  if (options.rpm == 0) options.rpm = scenario::rpm(work);
   if (options.seconds == 0) options.seconds = work.seconds;
   options.title = work.title;
   options.at = work.at;
@@ -75,6 +76,7 @@ void take_case(WorkOptions& options, const scenario::Case& work) {
   options.motion = work.motion;
   options.kind = work.burr.kind;
   if (options.tool.tool.empty()) options.tool.tool = work.tool;
+  options.tool.own = work.own_tools;
   options.spare = work.spare;
   options.work_case = work;
 }
@@ -98,8 +100,12 @@ Result<sim::SessionSettings> settings_of(const WorkOptions& options, bool realti
   settings.servo.burr.kind = options.kind;
   settings.servo.spindle_rad_s = options.rpm * 2 * std::numbers::pi / 60;
   settings.servo.mode = options.mode;
-  settings.servo.irrigated = options.irrigated;
-  settings.servo.touch = options.touch;
+  if (options.work_case)
+    if (const Status set = workshop::take_session(*options.work_case, settings.servo); !set)
+      return set.error();
+  // what the user chose goes first
+  if (options.irrigated) settings.servo.irrigated = true;
+  if (options.touch != haptics::Method::constraint) settings.servo.touch = options.touch;
   if (const Status taken = take_tool(options.tool, settings.servo); !taken) return taken.error();
   settings.realtime = realtime;
   return settings;

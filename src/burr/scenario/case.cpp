@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <safe_toml.h>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "burr/scenario/rack.h"
 #include "burr/scenario/read_lesson.h"
 #include "burr/scenario/read_texts.h"
+#include "burr/scenario/read_tools.h"
 #include "burr/scenario/toml_reader.h"
 
 namespace burr::scenario {
@@ -30,11 +32,58 @@ void read_burr(Reader& reader, Case& out) {
     reader.fail("diameter_mm",
                 fmt::format("must be at least {:g} mm", 1e3 * tool::kSmallestDiameter));
   out.burr.radius = 0.5e-3 * diameter_mm;
+  out.file_burr_mm = diameter_mm;
   reader.choice<tool::BurrKind>(
       "kind", out.burr.kind,
       {{"cutting", tool::BurrKind::cutting}, {"diamond", tool::BurrKind::diamond}});
   reader.number("rpm", rpm, 0, kFastest, true);
   out.full_speed = rpm / 60 * 2 * std::numbers::pi;
+  out.file_rpm = rpm;
+}
+
+// The numbers have the limits of the options of `burr mill`.
+void read_session(Reader& reader, SessionWish& out) {
+  reader.only({"rate_hz", "stiffness_n_per_m", "touch", "removal", "drag", "vibration",
+               "torque_mnm", "teeth", "guard", "irrigation", "undo_bricks"});
+  const auto number = [&](std::string_view key, std::optional<double>& to, double least,
+                          double most, bool whole) {
+    if (!reader.has(key)) return;
+    double value = 0;
+    reader.number(key, value, -1e-300, most);
+    if (value < least || (whole && value != std::floor(value)))
+      reader.fail(key, fmt::format("must be a {}number from {:g} to {:g}", whole ? "whole " : "",
+                                   least, most));
+    to = value;
+  };
+  number("rate_hz", out.rate_hz, 500, 10'000, false);
+  number("stiffness_n_per_m", out.stiffness_n_per_m, 1, 1e5, false);
+  number("drag", out.drag, 0, 10, false);
+  number("vibration", out.vibration, 0, 100, false);
+  number("torque_mnm", out.torque_mnm, 0, 1000, false);
+  number("teeth", out.teeth, 1, 64, true);
+  number("undo_bricks", out.undo_bricks, 1, 1e9, true);
+  const auto flag = [&](std::string_view key, std::optional<bool>& to) {
+    bool value = false;
+    reader.flag(key, value);
+    if (reader.has(key)) to = value;
+  };
+  flag("guard", out.guard);
+  flag("irrigation", out.irrigation);
+  reader.text("touch", out.touch);
+  reader.text("removal", out.removal);
+}
+
+// A tool of the case's own has its name before the rack.
+void read_tools(Reader& reader, Case& out) {
+  Rack own;
+  read_tool_list(reader, "own_tool", {}, {}, own);
+  out.own_tools = std::move(own.all);
+  reader.text("tool", out.tool);
+  if (out.tool.empty()) return;
+  for (const RackTool& tool : out.own_tools)
+    if (tool.name == out.tool) return;
+  if (const auto known = built_in_rack().get(out.tool); !known)
+    reader.fail("tool", known.error().text);
 }
 
 void read_work(Reader& reader, Case& out) {
@@ -48,10 +97,10 @@ void read_work(Reader& reader, Case& out) {
 }
 
 void read_all(Reader& reader, Case& out) {
-  reader.only({"format", "title",    "description", "phantom",   "volume", "voxel_mm",
-               "rubric", "approach", "work",        "burr",      "demo",   "spare",
-               "target", "landmark", "region",      "structure", "step",   "complication",
-               "piece",  "feedback", "reference",   "tool"});
+  reader.only({"format", "title",    "description", "phantom",   "volume",  "voxel_mm",
+               "rubric", "approach", "work",        "burr",      "demo",    "spare",
+               "target", "landmark", "region",      "structure", "step",    "complication",
+               "piece",  "feedback", "reference",   "tool",      "session", "own_tool"});
   Texts title, description;
   read_texts(reader, "title", title, true);
   read_texts(reader, "description", description);
@@ -62,13 +111,12 @@ void read_all(Reader& reader, Case& out) {
   if (out.phantom.empty() == out.volume.empty())
     reader.fail("phantom", "give either phantom = \"NAME\" or volume = \"FILE\"");
   reader.text("rubric", out.rubric);
-  reader.text("tool", out.tool);
-  if (!out.tool.empty())
-    if (const auto known = built_in_rack().get(out.tool); !known)
-      reader.fail("tool", known.error().text);
+  read_tools(reader, out);
+  reader.table("session", [&](Reader& inner) { read_session(inner, out.session.emplace()); });
   double voxel_mm = 0;
   reader.number("voxel_mm", voxel_mm, 0, 10);
   out.voxel = 1e-3 * voxel_mm;
+  out.file_voxel_mm = voxel_mm;
   reader.table("work", [&](Reader& inner) { read_work(inner, out); });
   bool has_burr = false;
   reader.table("burr", [&](Reader& inner) {

@@ -14,6 +14,7 @@
 
 #include "burr/base/result.h"
 #include "burr/math/vec3.h"
+#include "burr/scenario/rack.h"
 #include "burr/tool/burr_tool.h"
 #include "burr/volume/tissue.h"
 
@@ -30,6 +31,14 @@ struct Target {
   std::string tissue;
   Goal goal = Goal::open;
   double share = 1;  // required share, 0..1
+};
+
+// How a session on the case is set, [session]: the options of `burr mill`, by their names and in their
+// units, so that one file gives one hash wherever it is run. What is left out is as usual.
+struct SessionWish {
+  std::optional<double> rate_hz, stiffness_n_per_m, drag, vibration, torque_mnm, teeth, undo_bricks;
+  std::optional<bool> guard, irrigation;
+  std::string touch, removal;  // empty: as usual
 };
 
 struct Case {
@@ -49,6 +58,12 @@ struct Case {
   std::string tool;  // of the rack, in the hand at the start; empty: the round burr
   tool::Burr burr;
   double full_speed = 0;  // of the spindle [rad/s]
+  // Tools that the case defines itself, [[own_tool]]; they come before those of the rack.
+  std::vector<RackTool> own_tools;
+  // None: the case has no [session]. With it, diameter, speed and voxels are those of the file to the
+  // last bit (burr_mm() and so on); without it they keep the last bit that they always had.
+  std::optional<SessionWish> session;
+  double file_burr_mm = 0, file_rpm = 0, file_voxel_mm = 0;  // as the file has them
 
   // A .toml file (relative to the folder of the case file): the rubric by which work on this case is
   // judged. Empty: the built-in one of the case's name, if there is one.
@@ -70,6 +85,11 @@ inline constexpr const char* kOwnFile = "own file";
 
 // True: nothing in the case names a place on somebody's disk.
 [[nodiscard]] bool names_no_file(const Case& work);
+
+// As a person types them: what a session takes.
+[[nodiscard]] double burr_mm(const Case& work);
+[[nodiscard]] double rpm(const Case& work);
+[[nodiscard]] double voxel_mm(const Case& work);  // 0: a value that suits the bone
 
 // FNV-1a of 64 bits, so that other programs can work it out too. Shows a changed text; no secret.
 [[nodiscard]] std::uint64_t text_hash(std::string_view text);

@@ -39,6 +39,8 @@ struct Rack {
   [[nodiscard]] const RackTool* find(std::string_view name) const;
   // The same, or an error that lists the names.
   [[nodiscard]] Result<RackTool> get(std::string_view name) const;
+  // Adds it; it takes the place of one of the same name.
+  void put(RackTool tool);
 };
 
 // A part that is a mesh from a file, which another room reads (workshop/mesh_shape.h).

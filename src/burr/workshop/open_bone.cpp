@@ -1,17 +1,40 @@
 #include "burr/workshop/open_bone.h"
 
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "burr/base/inputs.h"
 #include "burr/importing/materials.h"
 #include "burr/phantom/phantoms.h"
+#include "burr/record/bone_blob.h"
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/bone_cache.h"
 #include "burr/workshop/prebuilt_phantom.h"
 
 namespace burr::workshop {
 namespace {
+
+void describe(const volume::Bone& bone, const char* format, importing::ImportSummary& s) {
+  s.format = format;
+  s.voxel_mm = bone.grid().voxel * 1e3;
+  s.size = s.scan_size = s.roi_size = bone.grid().size;
+  s.spacing_mm = math::Vec3::Constant(s.voxel_mm);
+  s.axes = bone.grid().frame.q.toRotationMatrix();
+  s.origin_mm = bone.grid().frame.p * 1e3;
+  s.labels = true;
+  const auto& table = bone.tissues().tissues;
+  for (std::size_t id = 1; id < table.size(); ++id)
+    s.tissues.push_back({static_cast<volume::TissueId>(id), table[id], 0, 0});
+  s.solid_mm3 = volume::volume_of(bone) * 1e9;
+}
 
 Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progress& progress) {
   const std::string name = scenario::phantom_name(recipe.source);
@@ -41,22 +64,35 @@ Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progres
     made.bone = std::move(*bone);
     keep_bone(entry, made);
   }
-  importing::ImportSummary& s = made.summary;
-  s.format = "formula";
-  s.voxel_mm = made.bone->grid().voxel * 1e3;
-  s.size = s.scan_size = s.roi_size = made.bone->grid().size;
-  s.spacing_mm = math::Vec3::Constant(s.voxel_mm);
-  s.axes = made.bone->grid().frame.q.toRotationMatrix();
-  s.origin_mm = made.bone->grid().frame.p * 1e3;
-  s.labels = true;
-  const auto& table = made.bone->tissues().tissues;
-  for (std::size_t id = 1; id < table.size(); ++id)
-    s.tissues.push_back({static_cast<volume::TissueId>(id), table[id], 0, 0});
-  s.solid_mm3 = volume::volume_of(*made.bone) * 1e9;
+  describe(*made.bone, "formula", made.summary);
+  return made;
+}
+
+// A bone that burr wrote whole (write_prebuilt_phantom()).
+Result<importing::Imported> open_whole(const scenario::Recipe& recipe) {
+  scenario::Recipe usual;
+  usual.source = recipe.source;
+  usual.reserve_bricks = recipe.reserve_bricks;
+  if (!(recipe == usual))
+    return error(Trouble::usage,
+                 "a .bone file holds a bone as it is: only --reserve-bricks applies to it");
+  std::ifstream in(recipe.source, std::ios::binary);
+  const std::string name = std::filesystem::path(recipe.source).filename().string();
+  if (!in) return error(fmt::format("{}: cannot read this file; check its name", name));
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), {}};
+  auto bone = record::bone_from_blob(record::ByteSpan(bytes), recipe.reserve_bricks, name);
+  if (!bone) return bone.error();
+  importing::Imported made;
+  made.bone = std::move(*bone);
+  describe(*made.bone, "bone of burr", made.summary);
   return made;
 }
 
 }  // namespace
+
+bool is_whole_bone(const std::string& source) {
+  return !scenario::is_phantom(source) && std::filesystem::path(source).extension() == ".bone";
+}
 
 io::ReadOptions read_options(const scenario::Recipe& recipe) {
   return {recipe.series, recipe.spacing_mm, recipe.check_values, recipe.read_seconds,
@@ -68,6 +104,7 @@ Result<importing::Imported> open_bone(const scenario::Recipe& recipe, Progress& 
   for (const std::string& input : {recipe.source, recipe.labels, recipe.materials})
     base::note_input(input);
   if (scenario::is_phantom(recipe.source)) return open_phantom(recipe, progress);
+  if (is_whole_bone(recipe.source)) return open_whole(recipe);
   if (scan != nullptr) return importing::import_bone(*scan, recipe, progress, keep_greys);
   const std::string entry = keep_greys ? std::string() : entry_of(recipe);
   if (auto kept = kept_bone(entry, recipe.reserve_bricks)) return std::move(*kept);

@@ -6,6 +6,8 @@
 // Thread: any. Errors: one sentence that names the option or the file.
 #pragma once
 
+#include <string>
+
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/importing/import.h"
@@ -16,6 +18,9 @@ namespace burr::workshop {
 
 // The part of the recipe that the reader of the file needs.
 [[nodiscard]] io::ReadOptions read_options(const scenario::Recipe& recipe);
+
+// True: a .bone file, which holds a bone to the bit, as `burr phantom --out X.bone` writes it.
+[[nodiscard]] bool is_whole_bone(const std::string& source);
 
 // scan: the content of the source if it has been read before; it is then not read again.
 // keep_greys: keep the values of a grey scan, so that slices can be shown.

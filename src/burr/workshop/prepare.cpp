@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "burr/workshop/case_session.h"
 #include "burr/workshop/open_bone.h"
 
 namespace burr::workshop {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kDiameterMm = 5, kRpm = 40'000;  // if neither user nor case gives them
 
 double rad_s(double rpm) { return rpm * 2 * std::numbers::pi / 60; }
-double rpm_of(double rad_s) { return rad_s * 60 / (2 * std::numbers::pi); }
 
 Result<Prepared> prepare(const scenario::Recipe& recipe, const scenario::Case* work,
                          const Tool& tool, const io::Scan* scan, bool keep_greys,
@@ -24,9 +24,11 @@ Result<Prepared> prepare(const scenario::Recipe& recipe, const scenario::Case* w
   if (work != nullptr) {
     const Status fits = scenario::check_tissues(*work, made->bone->tissues());
     if (!fits) return fits.error();
+    tick::ServoSettings tried;
+    if (const Status set = take_session(*work, tried); !set) return set.error();
   }
   double diameter_mm = tool.diameter_mm > 0 ? tool.diameter_mm
-                       : work != nullptr    ? 2e3 * work->burr.radius
+                       : work != nullptr    ? scenario::burr_mm(*work)
                                             : kDiameterMm;
   const std::optional<math::Vec3> nowhere;
   auto place = surgeon::find_work_place(*made->bone, 0.5e-3 * diameter_mm,
@@ -47,7 +49,7 @@ Result<Prepared> prepare(const scenario::Recipe& recipe, const scenario::Case* w
   out.burr.radius = 0.5e-3 * diameter_mm;
   out.burr.kind = work != nullptr ? work->burr.kind : tool.kind;
   out.spindle = tool.rpm != 0     ? rad_s(tool.rpm)
-                : work != nullptr ? rad_s(rpm_of(work->full_speed))  // as the command line has it
+                : work != nullptr ? rad_s(scenario::rpm(*work))  // as the command line has it
                                   : rad_s(kRpm);
   return out;
 }
@@ -66,7 +68,7 @@ Result<Prepared> prepare(const scenario::Case& work, Progress& progress, const T
 
 scenario::Recipe recipe_of(const scenario::Case& work, scenario::Recipe recipe) {
   recipe.source = work.phantom.empty() ? work.volume : scenario::phantom_source(work.phantom);
-  if (recipe.voxel_mm == 0) recipe.voxel_mm = 1e3 * work.voxel;
+  if (recipe.voxel_mm == 0) recipe.voxel_mm = scenario::voxel_mm(work);
   return recipe;
 }
 
@@ -85,6 +87,8 @@ sim::SessionSettings settings_of(const Prepared& prepared, bool realtime) {
   settings.servo.burr.radius = prepared.burr.radius;
   settings.servo.burr.kind = prepared.burr.kind;
   settings.servo.spindle_rad_s = prepared.spindle;
+  if (prepared.work_case)  // prepare() tried it
+    static_cast<void>(take_session(*prepared.work_case, settings.servo));
   settings.realtime = realtime;
   return settings;
 }
