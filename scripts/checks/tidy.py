@@ -93,7 +93,7 @@ def groups(build):
     made = []  # [command, files, {room: its names}]; each room is a namespace
     for file, command in sorted(alike(commands(build)).items()):
         text = file.read_text(errors="replace")
-        if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name) or re.search(r"#include <(itk|gdcm)", text):
+        if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name) or re.search(r"#include <(itk|gdcm|dcmtk)", text):
             continue
         room, mine = file.relative_to(ROOT / "src" / "burr").parts[0], together.names(with_kernels(file, text))
         if re.search(r"#include <(X11/|GL/glx)|OPENXR|SDL_syswm", text):  # whose macros change what other files say
