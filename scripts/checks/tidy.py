@@ -7,7 +7,7 @@ Most of clang-tidy's time goes into the headers of Eigen and of the standard lib
 looked at together, as one source that includes them. Files whose names clash are put into different groups (together.py);
 where two of a group cannot be compiled together all the same, the group is halved until they are apart.
 
-Left out: what includes ITK or GDCM (a minute a file), and a kernel's copies for other processors.
+Left out: what includes ITK, GDCM or DCMTK (a minute a file), and a kernel's copies for other processors.
 """
 import collections
 import concurrent.futures
