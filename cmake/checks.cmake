@@ -49,6 +49,9 @@ if(Python3_FOUND)
     add_test(NAME school_forget COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/school/forget_test.py $<TARGET_FILE:burr_program>)
     add_test(NAME serve_attacked COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/school/attack_serve.py $<TARGET_FILE:burr_program> --seconds 30)
     set_tests_properties(school_xapi school_forget serve_attacked PROPERTIES TIMEOUT 900 LABELS long)
+    # DICOM segmentations, read by programs of others
+    add_test(NAME io_segments_elsewhere COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/io/segments_elsewhere.py $<TARGET_FILE:burr_program>)
+    set_tests_properties(io_segments_elsewhere PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
     # thousands of sessions: shards, kills, engines; and a cluster of Slurm on this computer
     add_test(NAME batch COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/batch/batch_test.py $<TARGET_FILE:burr_program>)
     add_test(NAME batch_slurm COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/batch/slurm_test.py $<TARGET_FILE:burr_program>)

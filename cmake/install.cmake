@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 install(TARGETS burr_core burr EXPORT burrTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
-install(TARGETS burr_read burr_guard RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr COMPONENT program)
+install(TARGETS burr_read burr_seg burr_guard RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/burr COMPONENT program)
 if(TARGET burr_program)
   set_target_properties(burr_program PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS burr_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)

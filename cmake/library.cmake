@@ -54,7 +54,7 @@ list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 #
 # burr_part(NAME WITH TARGET... FROM GLOB...): the sources that match; each belongs to one part.
 set(rest ${BURR_SOURCES})
-list(REMOVE_ITEM rest ${BURR_READERS} ${BURR_CORE_SOURCES})
+list(REMOVE_ITEM rest ${BURR_READERS} ${BURR_SEG_SOURCES} ${BURR_CORE_SOURCES})
 list(FILTER rest EXCLUDE REGEX "_plain\\.cpp$")
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   list(FILTER rest EXCLUDE REGEX "_avx(2|512)\\.cpp$")
@@ -132,7 +132,7 @@ endforeach()
 if(NOT BURR_WARNINGS_ONLY)  # nothing runs with that build's library
   add_dependencies(burr burr_guard)  # without it no arm is guarded
   if(BURR_READER)
-    add_dependencies(burr burr_read)  # without it no scan can be read
+    add_dependencies(burr burr_read burr_seg)  # without them no scan can be read, and no DICOM written
   endif()
 endif()
 add_library(burr::burr ALIAS burr)

@@ -21,5 +21,13 @@ add_executable(burr_read ${PROJECT_SOURCE_DIR}/apps/burr-read/main.cpp)
 set_target_properties(burr_read PROPERTIES OUTPUT_NAME burr-read RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_link_libraries(burr_read PRIVATE burr_readers burr_options)
 
+# burr-seg: writes one DICOM segmentation in a process of its own, because DCMTK must not be loaded into the program that
+# runs a device.
+set(BURR_SEG_SOURCES ${PROJECT_SOURCE_DIR}/src/burr/io/write/dicom_seg_child.cpp)
+add_executable(burr_seg ${PROJECT_SOURCE_DIR}/apps/burr-seg/main.cpp ${BURR_SEG_SOURCES})
+set_target_properties(burr_seg PROPERTIES OUTPUT_NAME burr-seg RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+target_include_directories(burr_seg PRIVATE ${PROJECT_SOURCE_DIR}/src)
+target_link_libraries(burr_seg PRIVATE burr_dcmtk nlohmann_json::nlohmann_json burr_options)
+
 # where an installation has it, relative to libburr.so
 file(RELATIVE_PATH BURR_LIBEXEC_FROM_LIB ${CMAKE_INSTALL_FULL_LIBDIR} ${CMAKE_INSTALL_FULL_LIBEXECDIR}/burr)

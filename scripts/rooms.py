@@ -77,7 +77,7 @@ ELSEWHERE = [
     (r"openxr/", ["render/gl"], "a headset"),
     (r"SDL", ["render/gl", "sound"], "graphics and sound"),
     (r"sqlite3|libpq|postgresql", ["school"], "a database"),
-    (r"itk|gdcm|assimp/|vtk|png[.]h|yaml[.]h", ["io"], "a file format's library"),
+    (r"itk|gdcm|dcmtk/|assimp/|vtk|png[.]h|yaml[.]h", ["io"], "a file format's library"),
     (r"dds/|crtk_messages", ["device/crtk"], "the bus of ROS 2"),
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
 ]

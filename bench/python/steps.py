@@ -98,13 +98,16 @@ def main():
         took.append(1e3 * (time.process_time() - began))
     print(f"| `reset_to` over 10 mm3 of removed bone, {bone.shape[0]}^3 voxels | {sorted(took)[10]:.2f} ms, worst {max(took):.2f} |")
     big = burr.Scene("temporal-bone")
-    session = big.session(rows=False, voxels=False)
+    session = big.session(burr.Hand.motion("pocket", seconds=60), rows=False, voxels=False)
+    while session.outcome()["removed_mm3"] < 10 and session.step(100):
+        pass
+    state = session.snapshot()
     took = []
-    for _ in range(20):
+    for n in range(20):
         began = time.process_time()
-        session.reset_to()
+        session.reset_to(None if n % 2 else state)
         took.append(1e3 * (time.process_time() - began))
-    print(f"| the same, temporal bone of {'x'.join(str(n) for n in big.bone.shape)} voxels, nothing removed | {sorted(took)[10]:.2f} ms |")
+    print(f"| the same, temporal bone of {'x'.join(str(n) for n in big.bone.shape)} voxels | {sorted(took)[10]:.2f} ms, worst {max(took):.2f} |")
     env = burr.env.Env(scene, max_steps=1 << 30, end_on_injury=False)
     env.reset(seed=1)
     action = np.zeros(7, np.float32)

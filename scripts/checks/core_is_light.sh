@@ -17,6 +17,11 @@ while read -r needed _; do
   esac
 done < <(ldd "$build/libburr_core.so")
 
+# libraries of file formats stay in burr-read and burr-seg
+while read -r needed _; do
+  case $(basename "$needed") in libdcm* | libofstd* | libgdcm*) complain "libburr.so loads $needed" ;; esac
+done < <(ldd "$build/libburr.so")
+
 objects() { find "$build/CMakeFiles/$1.dir" -name '*.o' | sort; }
 [ -n "$(objects burr_core)" ] || complain "no objects of burr_core in $build"
 while read -r object; do

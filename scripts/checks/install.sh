@@ -29,7 +29,12 @@ done < <(cd "$place/prefix/include" && grep -rhoE --with-filename '^#include "bu
 "$place/prefix/bin/burr" --version
 # the installed burr-read reads a scan
 "$place/prefix/bin/burr" --quiet phantom ball --voxel-mm 1 --out "$place/ball.nrrd" >"$place/log"
+"$place/prefix/bin/burr" --quiet phantom ball --voxel-mm 1 --out "$place/ball.seg.nrrd" >"$place/log"
 "$place/prefix/bin/burr" --quiet info "$place/ball.nrrd"
+# the installed burr-seg writes DICOM
+"$place/prefix/bin/burr" --quiet export "$place/ball.seg.nrrd" --part labels --out "$place/ball.dcm" >"$place/log" 2>&1
+"$place/prefix/bin/burr" --quiet info "$place/ball.dcm" >"$place/log"
+grep -q "DICOM segmentation" "$place/log"
 mv "$place/prefix/libexec/burr/burr-read" "$place/burr-read"
 if "$place/prefix/bin/burr" --quiet info "$place/ball.nrrd" 2>"$place/log"; then
   echo "the installed burr reads scans with a helper that is not its own"
@@ -51,7 +56,7 @@ assert loaded and all("/prefix/" in name for name in loaded), loaded
 END
   )
 fi
-if grep -rlE '#include <(itk|gdcm|nlohmann|fmt|spdlog|SDL|epoxy|zstd)' "$place/prefix/include"; then
+if grep -rlE '#include <(itk|gdcm|dcmtk|nlohmann|fmt|spdlog|SDL|epoxy|zstd)' "$place/prefix/include"; then
   echo "the installed headers above need more than Eigen"
   exit 1
 fi

@@ -7,7 +7,7 @@ Most of clang-tidy's time goes into the headers of Eigen and of the standard lib
 looked at together, as one source that includes them. Files whose names clash are put into different groups (together.py);
 where two of a group cannot be compiled together all the same, the group is halved until they are apart.
 
-Left out: what includes ITK or GDCM (a minute a file), and a kernel's copies for other processors.
+Left out: what includes ITK, GDCM or DCMTK (a minute a file), and a kernel's copies for other processors.
 """
 import collections
 import concurrent.futures
@@ -93,7 +93,7 @@ def groups(build):
     made = []  # [command, files, {room: its names}]; each room is a namespace
     for file, command in sorted(alike(commands(build)).items()):
         text = file.read_text(errors="replace")
-        if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name) or re.search(r"#include <(itk|gdcm)", text):
+        if file.suffix != ".cpp" or re.search(r"_avx(2|512)\.cpp$", file.name) or re.search(r"#include <(itk|gdcm|dcmtk)", text):
             continue
         room, mine = file.relative_to(ROOT / "src" / "burr").parts[0], together.names(with_kernels(file, text))
         if re.search(r"#include <(X11/|GL/glx)|OPENXR|SDL_syswm", text):  # whose macros change what other files say

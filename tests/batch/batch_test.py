@@ -4,12 +4,14 @@ is refused in one sentence.
 
     tests/batch/batch_test.py BURR [NAME...]        NAME: only these tests
 """
+import contextlib
 import csv
 import hashlib
 import io
 import json
 import os
 import pathlib
+import random
 import re
 import shutil
 import signal
@@ -17,6 +19,7 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -32,6 +35,19 @@ ROWS = (HEAD + "id,command,case,volume,stimulus,names,level,seed,seconds,motion,
         "v-1,verify,,,,safety,,7,,,,,,,yes,\n" +
         "bad,surgeon,tooth,,,,expert,,2,,,,,,,no_such_vice=1\n")
 SURGEON = HEAD + "id,command,case,seed,seconds\n"
+# rows of some hundredths of a second
+OBSERVER = HEAD + "id,command,stimulus,seed,observer,trials\n"
+
+
+def observers(ids):
+    return OBSERVER + "".join(f'{one},psychophysics,stiffness,{n},"threshold=0.12,seed={n}",10\n' for n, one in enumerate(ids))
+
+
+def seed_of_today():
+    """A new one in each run, so that the kills of a year come at many moments; BURR_SEED repeats one."""
+    seed = int(os.environ.get("BURR_SEED", random.SystemRandom().randrange(1 << 32)))
+    print(f"  BURR_SEED={seed}", flush=True)
+    return seed
 
 
 def refuses_what_is_no_manifest(folder):
@@ -138,6 +154,102 @@ def equal_after_kills(folder):
     assert batch.results("killed") == batch.results("whole")
     assert batch.merge("killed") == batch.merge("whole")
     assert not batch.remains("killed"), "the table is made, and half files are left"
+
+
+def equal_after_many_kills_in_many_shards(folder):
+    """64 shards, and 50 kills at random moments: the bytes of one run that nobody disturbed. Where all rows are done before the last
+    kill, it begins anew."""
+    seed, kills = seed_of_today(), 50
+    batch = Batch(BURR, folder, observers(f"p{n}" for n in range(128)))
+    batch.do("whole")
+    results, table = batch.results("whole"), batch.merge("whole")
+    assert len(results) == 128
+    batch.all("many", 64)
+    assert batch.results("many") == results and batch.merge("many") == table
+    met, turn = 0, 0
+    while met < kills:
+        out = f"killed{turn}"
+        met += killed_again_and_again(batch, out, 4, kills - met, seed=seed + turn, longest_s=0.3)
+        assert batch.results(out) == results, f"{out}: other bytes"
+        assert batch.merge(out) == table, f"{out}: another table"
+        assert not batch.remains(out), "the table is made, and half files are left"
+        turn += 1
+        assert turn < 20, "no kill meets a running program"
+
+
+def ten_thousand_rows(folder):
+    """A manifest of 10 000 rows, with ids as long as they may be: few shards of many are done, the others are named as missing; a doubled id is
+    refused with both of its lines; with all results there, the table has the manifest's order."""
+    longest = "Az09_.-" + "x" * 57
+    ids = [longest, longest[:-1] + "y"] + [f"row-{n}.of.{10000 - n}" for n in range(9998)]
+    assert len(longest) == 64 and len(set(ids)) == 10000
+    batch = Batch(BURR, folder, observers(ids))
+    shard = fnv1a64(longest) % 2000
+    mine = [one for one in ids if fnv1a64(one) % 2000 == shard]
+    said = json.loads(batch.do("out", f"{shard}/2000", "--json").splitlines()[-1])
+    assert said["rows"] == said["done"] == len(mine) and 1 <= len(mine) < 40, (said, mine)
+    done = {json.loads(text)["id"]: text for text in batch.results("out").values()}
+    assert sorted(done) == sorted(mine)
+    said = batch.merge("out", code=75)
+    assert f"{10000 - len(mine)} rows are missing" in said and f"missing {longest}\n" not in said, said[-300:]
+    # the other results as the same program would write them, but for what it found
+    one = json.loads(done[longest])
+    for n, name in enumerate(ids):
+        if name in done:
+            continue
+        file = folder / "out" / "results" / f"{fnv1a64(name) & 0xff:02x}" / f"{name}.json"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        one["id"], one["inputs"]["seed"], one["inputs"]["observer"] = name, str(n), f"threshold=0.12,seed={n}"
+        file.write_text(json.dumps(one, sort_keys=True, separators=(",", ":")) + "\n")
+    batch.merge("out")
+    table = list(csv.DictReader(io.StringIO((folder / "out.csv").read_text(), newline="")))
+    assert [row["id"] for row in table] == ids and table[777]["seed"] == "777"
+    assert json.loads(batch.do("out", "0/1", "--json").splitlines()[-1]) == {"shard": "0/1", "rows": 10000, "done_before": 10000, "done": 0,
+                                                                             "refused": 0, "left": 0}
+    batch.manifest.write_text(observers([*ids, ids[4711]]))
+    said = batch.do("out", code=65)
+    assert f"line 10003, column id: {ids[4711]} is the id of line {4711 + 3} too" in said, said
+
+
+def clock_jumps(folder):
+    """The clock of the computer is years wrong, or jumps while a row is done: nothing but the times beside the results changes."""
+    library = next(iter(sorted(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"))), None)
+    if library is None:
+        assert os.environ.get("BURR_REQUIRE_TOOLS") != "1", "faketime is missing"
+        print("  faketime is missing (section [test] of scripts/packages.txt): not tried")
+        return
+    batch = Batch(BURR, folder, SURGEON + "".join(f"s{n},surgeon,tooth,{n},1\n" for n in range(1000, 1008)))
+    batch.do("true")
+    clock, over = folder / "clock", threading.Event()
+    clock.write_text("+0\n")
+
+    def jump():
+        for offset in ("+40d", "-9y", "+1h", "-1h", "+30y", "-1s"):
+            if over.wait(0.15):
+                return
+            new = folder / "clock.new"
+            new.write_text(offset + "\n")
+            new.rename(clock)
+    for out, env in (("past", {"FAKETIME": "@1999-12-31 23:59:58"}), ("future", {"FAKETIME": "@2043-07-01 00:00:00"}),
+                     ("jumps", {"FAKETIME_TIMESTAMP_FILE": str(clock), "FAKETIME_NO_CACHE": "1"})):
+        env |= {"LD_PRELOAD": str(library), "FAKETIME_DONT_FAKE_MONOTONIC": "1"}
+        over.clear()
+        jumping = threading.Thread(target=jump)
+        if out == "jumps":
+            jumping.start()
+        try:
+            batch.do(out, "0/2", env=env)
+            batch.do(out, "0/1", env=env if out != "past" else None)  # and back to the true time: done is done
+        finally:
+            over.set()
+            if out == "jumps":
+                jumping.join()
+        assert batch.results(out) == batch.results("true"), f"{out}: other bytes"
+        times = [json.loads(one.read_text()) for one in (folder / out / "results").rglob("*.time.json")]
+        assert len(times) == 8 and all(0 <= one["wall_s"] < 600 for one in times), times
+        years = {one["began"][:4] for one in times}
+        assert out == "jumps" or ("1999" in years or "2000" in years if out == "past" else years == {"2043"}), years
+        assert batch.merge(out) == batch.merge("true"), f"{out}: another table"
 
 
 def stopped_says_so(folder):
@@ -273,15 +385,36 @@ def prepared_bones_are_kept(folder):
         if step == "damaged":
             entries[0].write_bytes(before[entries[0]][:-100])
         if step == "sealed":
-            cache.chmod(0o555)
-        batch.do(step, "0/1", "--cache", cache)
-        cache.chmod(0o755)
+            with read_only(cache):
+                batch.do(step, "0/1", "--cache", cache)
+        else:
+            batch.do(step, "0/1", "--cache", cache)
         assert batch.results(step) == batch.results("without"), step
         assert before == {one: one.read_bytes() for one in cache.iterdir()}, f"{step}: the cache is another one"
+    empty = folder / "empty"  # that cannot be filled: each row makes its own bone
+    empty.mkdir()
+    with read_only(empty):
+        batch.do("unkept", "0/1", "--cache", empty)
+    assert batch.results("unkept") == batch.results("without") and not list(empty.iterdir())
     text = scan.read_bytes()
     scan.write_bytes(text.replace(b"0.5", b"0.6"))
     batch.do("changed", "0/1", "--cache", cache)
     assert len(list(cache.iterdir())) == 3 and batch.results("changed") != batch.results("without")
+
+
+@contextlib.contextmanager
+def read_only(place):
+    """Root may write whatever the permissions: it gets a folder that is mounted to be read alone."""
+    mounted = os.geteuid() == 0 and subprocess.run(["mount", "--bind", "-o", "ro", place, place], capture_output=True).returncode == 0
+    place.chmod(0o555) if not mounted else None
+    try:
+        if mounted or os.geteuid() != 0:
+            assert not os.access(place, os.W_OK), "the folder can be written"
+        else:
+            print("  nothing can be mounted here: a folder to be read alone was not tried")
+        yield
+    finally:
+        subprocess.run(["umount", place], check=True) if mounted else place.chmod(0o755)
 
 
 def engines(folder):
@@ -325,8 +458,8 @@ def the_page_as_printed(folder):
 
 
 def main():
-    tests = [refuses_what_is_no_manifest, equal_whatever_the_shards, equal_after_kills, stopped_says_so, finishes_the_row, merge_refuses, prepared_bones_are_kept,
-             full_disk_and_missing_files, engines, the_page_as_printed]
+    tests = [refuses_what_is_no_manifest, equal_whatever_the_shards, equal_after_kills, equal_after_many_kills_in_many_shards, ten_thousand_rows, clock_jumps,
+             stopped_says_so, finishes_the_row, merge_refuses, prepared_bones_are_kept, full_disk_and_missing_files, engines, the_page_as_printed]
     for test in tests:
         if sys.argv[2:] and test.__name__ not in sys.argv[2:]:
             continue

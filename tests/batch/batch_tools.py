@@ -78,4 +78,4 @@ def rows(batch):
 
 
 def done_rows(batch, out):
-    return len(batch.results(out)) if (batch.folder / out / "results").exists() else 0
+    return sum(1 for file in (batch.folder / out / "results").rglob("*.json") if not file.name.endswith(".time.json"))

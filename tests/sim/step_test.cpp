@@ -44,9 +44,10 @@ SessionSettings settings() {
   return made;
 }
 
-std::unique_ptr<Session> with(std::unique_ptr<device::Device> hand) {
+std::unique_ptr<Session> with(std::unique_ptr<device::Device> hand,
+                              const SessionSettings& wanted = settings()) {
   NoProgress quiet;
-  auto session = Session::make(slab(), std::move(hand), settings(), quiet);
+  auto session = Session::make(slab(), std::move(hand), wanted, quiet);
   EXPECT_TRUE(session.ok()) << session.error().text;
   return std::move(*session);
 }
@@ -268,6 +269,29 @@ TEST(Reset, IsLikeANewSession) {
   ASSERT_TRUE(path->reset_to({}).ok());
   path->step(2000, quiet);
   EXPECT_EQ(hashes(*path), first);
+}
+
+// This method of touch meshes the bone around the burr, by a mesher that is handed on.
+TEST(Reset, AlsoWithTheMethodThatTouchesTriangles) {
+  NoProgress quiet;
+  const auto path = surgeon::motion("pocket", {}, 2e-3, 1);
+  ASSERT_TRUE(path.ok());
+  SessionSettings triangles = settings();
+  triangles.servo.touch = haptics::Method::triangles;
+  const auto session =
+      with(std::make_unique<device::SimulatedHand>(*path, device::ArmSettings{}), triangles);
+  session->keep_in_memory(true, false);
+  session->step(1500, quiet);
+  const auto first = hashes(*session);
+  ASSERT_GT(session->outcome().ledger.removed, 0);
+  const edit::BoneState cut = session->bone_state();
+  for (int n = 0; n < 2; ++n) {  // the second time the mesher comes from a servo that got it itself
+    ASSERT_TRUE(session->reset_to(cut).ok());
+    session->step(200, quiet);
+    ASSERT_TRUE(session->reset_to({}).ok());
+    session->step(1500, quiet);
+    EXPECT_EQ(hashes(*session), first);
+  }
 }
 
 TEST(Crossed, AreTheVoxelsThatDifferAfterwards) {

@@ -3,16 +3,22 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "burr/io/export_part.h"
+#include "burr/io/read/read_scan.h"
+#include "burr/io/write/write_dicom_seg.h"
 #include "burr/record/player.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
+#include "commands/export_dicom.h"
 #include "commands/export_pieces.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
@@ -28,6 +34,7 @@ struct Options {
   std::string part = "bone", frame = "lps";
   bool scan = false, largest = false;
   bool json = false, force = false;
+  DicomOptions dicom;
 
   [[nodiscard]] io::ExportOptions what() const {
     return {part == "removed" ? io::Part::removed
@@ -36,12 +43,15 @@ struct Options {
             frame == "ras"     ? io::Frame::ras
             : frame == "print" ? io::Frame::print
                                : io::Frame::lps,
-            scan, largest};
+            scan,
+            largest,
+            {}};
   }
 };
 
 struct Bones {
   std::unique_ptr<volume::Bone> before, now;  // now empty: the same as before
+  std::optional<io::Scan> scan;               // of a volume, for a DICOM segmentation
   edit::PieceStore moved;                     // for --part pieces
 };
 
@@ -63,6 +73,13 @@ bool is_recording(const std::string& path) {
   return path.size() > 5 && path.compare(path.size() - 5, 5, ".mcap") == 0;
 }
 
+// A scan, with the study that it belongs to.
+Result<io::Scan> read_with_study(const scenario::Recipe& volume) {
+  io::ReadOptions reading = workshop::read_options(volume);
+  reading.study = true;
+  return io::read_scan(volume.source, reading, progress());
+}
+
 // A volume as it was opened: nothing has been removed from it.
 Result<Bones> open_plain(const Options& options) {
   if (options.part == "removed" || options.part == "added")
@@ -71,10 +88,16 @@ Result<Bones> open_plain(const Options& options) {
   scenario::Recipe volume = options.volume;
   volume.source = options.source;
   volume.reserve_bricks = 0;
-  auto opened = workshop::open_bone(volume, progress());
+  Bones bones;
+  if (is_dicom_path(options.out) && !scenario::is_phantom(volume.source) &&
+      !volume.source.ends_with(".bone")) {
+    auto scan = read_with_study(volume);
+    if (!scan) return scan.error();
+    bones.scan = std::move(*scan);
+  }
+  auto opened = workshop::open_bone(volume, progress(), bones.scan ? &*bones.scan : nullptr);
   if (!opened) return opened.error();
   for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
-  Bones bones;
   bones.before = std::move(opened->bone);
   return bones;
 }
@@ -120,9 +143,25 @@ std::string parts_text(const surface::Shells& shells, bool largest) {
   return text;
 }
 
-// Options that say nothing about pieces.
-Status check_pieces(const Options& options) {
+// Options that do not go together.
+Status check_parts(const Options& options) {
+  const bool dicom = is_dicom_path(options.out);
+  if (!dicom && options.dicom.any())
+    return error(Trouble::usage,
+                 "--study-of, --no-patient, --uid-root, --segmented-by and --algorithm are for a "
+                 "DICOM segmentation; give --out a name that ends in .dcm, or leave them out");
+  if (options.part == "labels" && !dicom)
+    return error(Trouble::usage,
+                 "--part labels writes the labels of a file as DICOM; give --out a name that ends "
+                 "in .dcm, or leave it out to write the bone");
+  if (options.part == "labels" && is_recording(options.source))
+    return error(Trouble::usage,
+                 "--part labels: a recording holds bone; leave it out, or give the file of labels");
   if (options.part != "pieces") return fine();
+  if (dicom)
+    return error(Trouble::usage,
+                 "--part pieces writes a file for each piece, and DICOM holds all segments in one; "
+                 "use .seg.nrrd or a mesh, or --part bone");
   if (options.largest)
     return error(Trouble::usage,
                  "--largest and --part pieces contradict each other; the first file of --part "
@@ -133,16 +172,62 @@ Status check_pieces(const Options& options) {
   return fine();
 }
 
+// The labels of a file on its own grid.
+Status export_labels(const Options& options) {
+  scenario::Recipe volume = options.volume;
+  volume.source = options.source;
+  if (scenario::is_phantom(volume.source) || volume.source.ends_with(".bone"))
+    return error(Trouble::usage,
+                 "--part labels: a phantom is bone from the start; leave it out to write the bone");
+  auto scan = read_with_study(volume);
+  if (!scan) return scan.error();
+  io::Scan source;  // as much as seg_options() asks for: a label map, and its study
+  source.labels.assign(1, 0);
+  source.study = scan->study;
+  for (const std::string& notice : scan->notices) fmt::print(stderr, "{}\n", notice);
+  auto labels = own_labels(std::move(*scan), volume);
+  if (!labels) return labels.error();
+  const auto dicom = seg_options(options.dicom, volume, &source, *labels, progress());
+  if (!dicom) return dicom.error();
+  const auto written = io::write_dicom_seg(*labels, options.out, *dicom, progress());
+  if (!written) return written.error();
+  tell_segments(options.out, written->segments, written->notices, labels->spacing_mm.prod(),
+                "labels", options.json);
+  return fine();
+}
+
+// Whose bone it is; of a recording, of the volume that the user names.
+Result<io::SegOptions> dicom_of(const Options& options, const Bones& bones,
+                                const volume::Bone& now) {
+  std::optional<io::Scan> named;
+  if (is_recording(options.source) && !options.volume.source.empty() &&
+      options.dicom.study_of.empty() && !options.dicom.no_patient &&
+      !scenario::is_phantom(options.volume.source)) {
+    auto scan = read_with_study(options.volume);
+    if (!scan) return scan.error();
+    named = std::move(*scan);
+  }
+  return seg_options(options.dicom, options.volume,
+                     bones.scan ? &*bones.scan
+                     : named    ? &*named
+                                : nullptr,
+                     io::labels_of_bone(now), progress());
+}
+
 Status run(const Options& options) {
-  const Status asked = check_pieces(options);
+  const Status asked = check_parts(options);
   if (!asked) return asked;
   const Status possible = io::check_export(options.out, options.what());
   if (!possible) return possible;
-  const Status allowed = check_outputs(
-      {options.source, options.volume.source, options.volume.labels, options.volume.materials},
-      {{"--out", options.out, {".stl", ".ply", ".obj", ".3mf", ".glb", ".seg.nrrd", ".nrrd"}}},
-      options.force);
+  const Status allowed =
+      check_outputs({options.source, options.volume.source, options.volume.labels,
+                     options.volume.materials, options.dicom.study_of},
+                    {{"--out",
+                      options.out,
+                      {".stl", ".ply", ".obj", ".3mf", ".glb", ".seg.nrrd", ".nrrd", ".dcm"}}},
+                    options.force);
   if (!allowed) return allowed;
+  if (options.part == "labels") return export_labels(options);
   auto bones = is_recording(options.source) ? open_recording(options) : open_plain(options);
   if (!bones) return bones.error();
   const volume::Bone& before = *bones->before;
@@ -150,8 +235,19 @@ Status run(const Options& options) {
   if (options.part == "pieces")
     return export_pieces(now, options.out, options.what(), options.force, options.json, progress(),
                          bones->moved);
-  const auto exported = io::export_part(before, now, options.out, options.what(), progress());
+  io::ExportOptions what = options.what();
+  if (is_dicom_path(options.out)) {
+    auto dicom = dicom_of(options, *bones, now);
+    if (!dicom) return dicom.error();
+    what.dicom = std::move(*dicom);
+  }
+  const auto exported = io::export_part(before, now, options.out, what, progress());
   if (!exported) return exported.error();
+  if (is_dicom_path(options.out)) {
+    tell_segments(options.out, exported->segments, exported->notices,
+                  std::pow(1e3 * now.grid().voxel, 3), options.part.c_str(), options.json);
+    return fine();
+  }
 
   const double volume_mm3 = exported.value().volume * 1e9;
   const surface::Shells& shells = exported.value().shells;
@@ -186,15 +282,16 @@ void add(CLI::App& app, Todo& todo) {
                    "a recording (.mcap), or a volume (file, DICOM folder, phantom:NAME)")
       ->required();
   command
-      ->add_option(
-          "--out", options->out,
-          "file to write; its ending decides the format: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd")
+      ->add_option("--out", options->out,
+                   "file to write; its ending decides the format: .stl .ply .obj .3mf .glb "
+                   ".seg.nrrd .nrrd .dcm")
       ->required();
   command
-      ->add_option(
-          "--part", options->part,
-          "what to write: bone, removed, added, or pieces: a numbered file for each separate piece")
-      ->check(CLI::IsMember({"bone", "removed", "added", "pieces"}))
+      ->add_option("--part", options->part,
+                   "what to write: bone, removed, added, labels: of a file, as they are, or "
+                   "pieces: a numbered "
+                   "file for each separate piece")
+      ->check(CLI::IsMember({"bone", "removed", "added", "labels", "pieces"}))
       ->capture_default_str();
   command
       ->add_option("--frame", options->frame,
@@ -211,6 +308,7 @@ void add(CLI::App& app, Todo& todo) {
       "--volume", options->volume.source,
       "for a recording: the volume it was made from (default: burr searches for it)");
   add_volume_options(*command, options->volume);
+  add_dicom_options(*command, options->dicom);
   add_force(*command, options->force);
   command->add_flag("--json", options->json, "one JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

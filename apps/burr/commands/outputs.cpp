@@ -69,7 +69,7 @@ std::string_view ending_of(const Output& output) {
 }
 
 bool is_kept(std::string_view ending) {
-  return ending.ends_with(".mcap") || ending.ends_with(".nrrd");
+  return ending.ends_with(".mcap") || ending.ends_with(".nrrd") || ending == ".dcm";
 }
 
 Error refused(const Output& output, Trouble trouble, const std::string& why) {
@@ -147,6 +147,8 @@ bool is_what_it_says(const std::string& path) {
   if (ends_with(path, ".stl")) return is_stl(head, size);
   if (ends_with(path, ".mp4"))
     return head.substr(std::min<std::size_t>(4, head.size())).starts_with("ftyp");
+  if (ends_with(path, ".dcm"))
+    return head.substr(std::min<std::size_t>(128, head.size())).starts_with("DICM");
   if (ends_with(path, ".html")) {
     const auto first = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
     return first != std::string::npos && head[first] == '<';

@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "burr/io/write/write_dicom_seg.h"
 #include "burr/io/write/write_mesh.h"
 #include "burr/io/write/write_volume.h"
 #include "burr/surface/mesher.h"
@@ -33,11 +34,12 @@ int workers() { return static_cast<int>(std::clamp(std::thread::hardware_concurr
 Status check_export(const std::string& path, const ExportOptions& options) {
   const bool labels = ends_with(path, ".seg.nrrd");
   const bool field = !labels && ends_with(path, ".nrrd");
-  const bool mesh = is_mesh_path(path);
-  if (!labels && !field && !mesh)
-    return error(Trouble::usage, path +
-                                     ": unknown file extension; use .stl, .ply, .obj, .3mf or .glb "
-                                     "for a mesh, .seg.nrrd for labels, .nrrd for a volume");
+  const bool mesh = is_mesh_path(path), dicom = ends_with(path, ".dcm");
+  if (!labels && !field && !mesh && !dicom)
+    return error(Trouble::usage,
+                 path +
+                     ": unknown file extension; use .stl, .ply, .obj, .3mf or .glb "
+                     "for a mesh, .seg.nrrd or .dcm for labels, .nrrd for a volume");
   if (options.frame != Frame::lps && (!mesh || ends_with(path, ".glb")))
     return error(Trouble::usage, path +
                                      ": the frame can be chosen only for .stl, .ply, .obj and "
@@ -78,7 +80,11 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
   }
 
   Exported exported{
-      part != nullptr ? volume::removed_volume(with, without) : volume::volume_of(*bone), 0, {}};
+      part != nullptr ? volume::removed_volume(with, without) : volume::volume_of(*bone),
+      0,
+      {},
+      {},
+      {}};
   Status written = fine();
   if (is_mesh_path(path)) {
     auto mesh = surface::whole_surface(*bone, workers(), progress);
@@ -102,6 +108,11 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
     written = write_mesh(*mesh, bone->tissues(), path, options.frame, progress);
   } else if (ends_with(path, ".seg.nrrd")) {
     written = write_labels(*bone, path, progress);
+  } else if (ends_with(path, ".dcm")) {
+    auto segments = write_dicom_seg(labels_of_bone(*bone), path, options.dicom, progress);
+    if (!segments) return segments.error();
+    exported.segments = std::move(segments->segments);
+    exported.notices = std::move(segments->notices);
   } else if (options.scan) {
     written = write_scan(before, now, path, progress);
   } else {

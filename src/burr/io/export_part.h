@@ -4,6 +4,7 @@
 //     .stl .ply .obj .3mf .glb    its closed surface            (io/write/write_mesh.h)
 //     .seg.nrrd                   a label per tissue            (io/write/write_volume.h)
 //     .nrrd                       the field, or the scan with the cut in it
+//     .dcm                        a DICOM segmentation, a segment per tissue (io/write/write_dicom_seg.h)
 //
 // Both bones must be at rest. Thread: one; meshes use a few more. Memory: for a mesh about 130
 // bytes per triangle, for the removed or added part its bricks.
@@ -11,10 +12,12 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/io/write/frame.h"
+#include "burr/io/write/write_dicom_seg.h"
 #include "burr/surface/shells.h"
 #include "burr/volume/bone.h"
 
@@ -27,6 +30,7 @@ struct ExportOptions {
   Frame frame = Frame::lps;  // for meshes except .glb; volumes are always LPS
   bool scan = false;         // .nrrd of the bone: the scan's grey values instead of the field
   bool largest = false;      // of a mesh only the largest part, with its cavities
+  SegOptions dicom = {};     // of .dcm
 };
 
 // What was written.
@@ -34,6 +38,8 @@ struct Exported {
   double volume = 0;          // volume_of() what was written; with `largest`, of the mesh  [m^3]
   std::size_t triangles = 0;  // 0 for a volume
   surface::Shells shells;     // of the mesh, also of what `largest` left out
+  std::vector<SegSegment> segments;  // of .dcm
+  std::vector<std::string> notices;  // of .dcm: what the user must know, one sentence each
 };
 
 // Trouble::usage if the ending is unknown or does not fit the options. Does not touch the disk, so

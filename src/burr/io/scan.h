@@ -2,7 +2,8 @@
 // memory as it was read.
 //
 // It holds no patient name, id or path: only what the geometry and the numbers need. Of dates it
-// holds those of the studies in a list of series, and nothing that burr writes has them.
+// holds those of the studies in a list of series, and nothing that burr writes has them. The one
+// exception is `study`, which is empty unless the caller asks for it.
 // Units: mm. Frame: LPS. Thread: one at a time; plain data.
 #pragma once
 
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "burr/io/dicom_study.h"
 #include "burr/io/voxels.h"
 #include "burr/math/vec3.h"
 #include "burr/volume/tissue.h"
@@ -64,6 +66,8 @@ struct Scan {
   std::vector<std::string>
       notices;  // oddities of the file and what was done about each, one sentence each
   std::vector<Question> questions;  // at most a few; importing refuses until they are answered
+
+  std::optional<DicomStudy> study;  // of DICOM, if ReadOptions::study asks for it
 
   void ask(Ask what, std::string text) { questions.push_back({what, std::move(text)}); }
 };

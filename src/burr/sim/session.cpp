@@ -308,7 +308,7 @@ Status Session::reset_to(const edit::BoneState& state) {
   surface_->refresh_all();
   device_->close();
   if (Status opened = device_->open(); !opened) return opened;
-  edit::BoneWriter::Known known = servo_->take_known();
+  tick::Servo::Known known = servo_->take_known();
   servo_.reset();  // before the next one takes its memory
   servo_ =
       std::make_unique<tick::Servo>(*bone_, *surface_, *device_, settings_.servo, std::move(known));

@@ -36,15 +36,15 @@ constexpr int kOrientation = 6;  // degrees of freedom of a device that tells ho
 }  // namespace
 
 Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
-             const ServoSettings& settings, edit::BoneWriter::Known known)
+             const ServoSettings& settings, Known known)
     : surface_(surface),
       dt_(1.0 / settings.rate_hz),
       controls_{.settings = settings, .irrigated = settings.irrigated},
       changed_(bone),
       undo_(bone, settings.undo_bricks),
-      writer_(bone, surface, undo_, &changed_, std::move(known)),
+      writer_(bone, surface, undo_, &changed_, std::move(known.bricks)),
       touch_by_(surface, proxy_settings(settings), settings.touch, &controls_.settings.tools,
-                settings.tool),
+                settings.tool, std::move(known.mesher)),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),
       cutting_(bone, undo_, writer_, controls_, hand_),
       piece_(surface, proxy_settings(settings), haptics::ShaftTouch::kLever,

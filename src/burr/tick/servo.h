@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "burr/device/device.h"
 #include "burr/edit/bone_writer.h"
@@ -25,6 +26,7 @@
 #include "burr/rt/latest.h"
 #include "burr/rt/ring.h"
 #include "burr/rt/rt.h"
+#include "burr/surface/mesher.h"
 #include "burr/thermal/worker.h"
 #include "burr/tick/cutting.h"
 #include "burr/tick/fault_report.h"
@@ -45,9 +47,14 @@ namespace burr::tick {
 
 class Servo {
  public:
+  // What was found in the whole bone, which takes the longer the larger it is.
+  struct Known {
+    edit::BoneWriter::Known bricks;
+    std::unique_ptr<surface::Mesher> mesher;
+  };
   // known: take_known() of another servo of this bone that has ended; empty: none.
   Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
-        const ServoSettings& settings, edit::BoneWriter::Known known = {});
+        const ServoSettings& settings, Known known = {});
 
   // One tick. lost: ticks were lost just before this one, and the watchdog released the force.
   const TickRow& tick(bool lost) BURR_RT;
@@ -82,7 +89,7 @@ class Servo {
   // For what puts the bone back to an earlier state, while this servo stands still (edit/bone_memory.h).
   [[nodiscard]] edit::BoneWriter& writer() { return writer_; }
   // For the next servo of the bone. This one must not tick any more.
-  [[nodiscard]] edit::BoneWriter::Known take_known() { return writer_.take_known(); }
+  [[nodiscard]] Known take_known() { return {writer_.take_known(), touch_by_.take_mesher()}; }
 
   // How long the last tick took and how late it began, for the recorder and the view; not part of
   // the truth.

@@ -16,14 +16,15 @@ constexpr double kShallow = 0.5;  // in bone, from which ours comes out by itsel
 
 TouchMethods::TouchMethods(const volume::IsoVertices& surface,
                            const haptics::ProxySettings& settings, Method first,
-                           const std::vector<tool::ShapedTool>* tools, int number)
+                           const std::vector<tool::ShapedTool>* tools, int number,
+                           std::unique_ptr<surface::Mesher> mesher)
     : surface_(surface),
       bone_(surface.bone()),
       radius_(settings.radius),
       method_(first),
       tools_(tools),
       number_(number),
-      mesher_(surface.bone()) {
+      mesher_(mesher ? std::move(mesher) : std::make_unique<surface::Mesher>(bone_)) {
   for (int n = 0; n < haptics::kMethods; ++n)
     all_[static_cast<std::size_t>(n)] =
         haptics::make_method(static_cast<Method>(n), surface, settings, Vec3::Zero());
@@ -108,7 +109,7 @@ void TouchMethods::show(std::uint64_t tick) BURR_RT {
   const volume::Grid& grid = bone_.grid();
   const Vec3 centre = grid.grid_from_world(triangles_->position());
   const double reach = (radius_ + kAround) / grid.voxel;
-  const math::Ijk patches = mesher_.patches();
+  const math::Ijk patches = mesher_->patches();
   math::Ijk lo, hi;
   for (int axis = 0; axis < 3; ++axis) {
     // patch p: between voxels 16 p - 1 and 16 p + 15
@@ -122,7 +123,7 @@ void TouchMethods::show(std::uint64_t tick) BURR_RT {
     for (int j = lo.y(); j <= hi.y(); ++j)
       for (int i = lo.x(); i <= hi.x(); ++i) {
         const int patch = i + patches.x() * (j + patches.y() * k);
-        if (!mesher_.mesh_patch(patch, patch_)) continue;
+        if (!mesher_->mesh_patch(patch, patch_)) continue;
         const auto corner = [&](std::size_t n) -> const math::Vec3f& {
           return patch_.vertices[patch_.triangles[n]].p;
         };

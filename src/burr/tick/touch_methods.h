@@ -12,6 +12,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "burr/haptics/baselines/triangles.h"
@@ -28,10 +29,14 @@ class TouchMethods {
  public:
   static constexpr std::uint64_t kFrame = 33;  // ticks
 
-  // tools: that the session may take, outlives this; nullptr: none. number: of the first, -1: the burr
+  // tools: that the session may take, outlives this; nullptr: none. number: of the first, -1: the burr.
+  // mesher: take_mesher() of another of this bone; nullptr: none
   TouchMethods(const volume::IsoVertices& surface, const haptics::ProxySettings& settings,
                haptics::Method first, const std::vector<tool::ShapedTool>* tools = nullptr,
-               int number = -1);
+               int number = -1, std::unique_ptr<surface::Mesher> mesher = {});
+  // For the next of this bone: to look for the borders of tissues takes milliseconds. This one must
+  // not be used any more.
+  [[nodiscard]] std::unique_ptr<surface::Mesher> take_mesher() { return std::move(mesher_); }
 
   [[nodiscard]] haptics::TouchMethod& now() BURR_RT {
     return number_ < 0 ? *all_[index(method_)] : *tool_;
@@ -72,7 +77,7 @@ class TouchMethods {
   int number_;
   std::unique_ptr<haptics::ToolTouch> tool_;  // none: the session has no tools
   haptics::TriangleProxy* triangles_ = nullptr;
-  surface::Mesher mesher_;
+  std::unique_ptr<surface::Mesher> mesher_;
   surface::Patch patch_;
   std::uint64_t shown_ = 0;  // revision of the surface in the triangles
 };

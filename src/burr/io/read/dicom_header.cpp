@@ -39,6 +39,15 @@ constexpr Tag kWanted[] = {
 
 bool wanted(Tag tag) { return std::binary_search(std::begin(kWanted), std::end(kWanted), tag); }
 
+// Patient, General Study, Patient Study, Frame of Reference; of these the elements that are no
+// sequences.
+constexpr Tag kOfStudy[] = {0x00080005, 0x00080020, 0x00080030, 0x00080050, 0x00080090, 0x00081030,
+                            0x00100010, 0x00100020, 0x00100021, 0x00100030, 0x00100032, 0x00100040,
+                            0x00101000, 0x00101001, 0x00101010, 0x00101020, 0x00101030, 0x00102160,
+                            0x00120062, 0x00120063, 0x0020000D, 0x00200010, 0x00200052, 0x00201040};
+
+bool of_study(Tag tag) { return std::binary_search(std::begin(kOfStudy), std::end(kOfStudy), tag); }
+
 // Sequences inside a functional group whose values are not those of the frame: private ones, and
 // references to other pictures.
 bool of_others(Tag tag) { return (tag >> 16) % 2 == 1 || (tag >> 16) == 8; }
@@ -50,6 +59,7 @@ class Walker {
       : bytes_(bytes), total_(total) {}
 
   bool explicit_vr = true, big_endian = false;
+  bool study = false;  // what is of the patient and the study is wanted too
   Values top, shared;
   std::vector<Values> frames, segments;
   bool has_pixels = false, float_pixels = false, encapsulated = false, modality_lut = false;
@@ -125,7 +135,8 @@ class Walker {
             fmt::format("element ({:04x},{:04x}) is longer than the file, or the file is "
                         "cut off",
                         tag >> 16, tag & 0xFFFF));
-      if (into != nullptr && wanted(tag) && length <= 65536) {
+      const bool taken = wanted(tag) || (study && depth == 0 && of_study(tag));
+      if (into != nullptr && taken && length <= 65536) {
         if (at + head + length > bytes_.size()) {
           cut = true;
           return at;
@@ -620,9 +631,8 @@ std::string not_read(const std::filesystem::path& path) {
                      short_name(path));
 }
 
-}  // namespace
-
-Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
+// study: filled with what the file states of patient and study; nullptr: not read.
+Result<DicomHeader> read_header(const std::filesystem::path& path, DicomStudy* study) {
   const std::string file = short_name(path);
   const auto broken = [&](const std::string& why) {
     return error(fmt::format("{}: is a damaged DICOM file ({}); copy it again", file, why));
@@ -678,6 +688,7 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
       const auto letter = [&](std::uint64_t p) { return (*bytes)[p] >= 'A' && (*bytes)[p] <= 'Z'; };
       set.explicit_vr = letter(at + 4) && letter(at + 5);
     }
+    set.study = study != nullptr;
     set.walk(at, total, 0, &set.top, false);
     if (set.cut && !whole_file && !header.deflated) {
       part *= 8;
@@ -686,8 +697,26 @@ Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
     }
     header.damage = set.trouble;
     take_facts(set, header);
+    if (study != nullptr) {
+      study->characters = text_of(set.top, 0x00080005);
+      for (const Tag tag : kOfStudy)
+        if (tag != 0x00080005 && set.top.count(tag) != 0)
+          study->values[tag] = text_of(set.top, tag);
+    }
     return header;
   }
+}
+
+}  // namespace
+
+Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
+  return read_header(path, nullptr);
+}
+
+Result<DicomStudy> read_dicom_study(const std::filesystem::path& path) {
+  DicomStudy study;
+  if (auto header = read_header(path, &study); !header) return header.error();
+  return study;
 }
 
 }  // namespace burr::io

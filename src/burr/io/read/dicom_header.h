@@ -2,8 +2,8 @@
 // no length: everything is checked against the file size before memory is allocated. Internal to
 // io.
 //
-// It does not read the patient's name, id, birth date or institution. The date of the study is read
-// for the list of series alone (Scan::series_dates).
+// It does not read the patient's name, id, birth date or institution, except by read_dicom_study().
+// The date of the study is read for the list of series alone (Scan::series_dates).
 // Units: mm. Frame: LPS. Thread: any. Errors: one sentence that names the file without its folder.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/io/dicom_study.h"
 #include "burr/io/read/bytes.h"
 #include "burr/math/vec3.h"
 
@@ -91,6 +92,9 @@ struct DicomHeader {
 // Error: not a DICOM file, or of an unknown transfer syntax. A damaged DICOM file is no error here:
 // see DicomHeader::damage.
 [[nodiscard]] Result<DicomHeader> read_dicom_header(const std::filesystem::path& path);
+
+// Whose file it is and to which study it belongs.
+[[nodiscard]] Result<DicomStudy> read_dicom_study(const std::filesystem::path& path);
 
 // The stored pixel values of all frames (columns x rows x frames), before rescaling. Compressed
 // pixels are decompressed by GDCM. beyond: how many pixels of an uncompressed file have bits beyond

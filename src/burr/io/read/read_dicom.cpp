@@ -431,6 +431,14 @@ void list_all(const Found& found, const std::vector<Volume>& volumes, Scan& scan
   }
 }
 
+Status take_study(const DicomHeader& h, const ReadOptions& options, Scan& scan) {
+  if (!options.study) return fine();
+  auto study = read_dicom_study(h.path);
+  if (!study) return study.error();
+  scan.study = std::move(*study);
+  return fine();
+}
+
 }  // namespace
 
 Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& options,
@@ -462,6 +470,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
     if (Status status = read_segmentation(header, options, short_name(header.path), scan, progress);
         !status)
       return status.error();
+    if (Status status = take_study(header, options, scan); !status) return status.error();
     return scan;
   }
   auto chosen = choose(*found, volumes, options, file, scan);
@@ -523,6 +532,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   affine.origin = scan.origin_mm;
   if (Status status = place(scan, affine, options.spacing_mm, file, progress); !status)
     return status.error();
+  if (Status status = take_study(h, options, scan); !status) return status.error();
   return scan;
 }
 

@@ -20,6 +20,7 @@ struct ReadOptions {
   // needs; only a damaged or hostile file, or a very strongly compressed one, reaches them.
   double seconds = 0;    // of processor time; also the longest time without progress [s]
   double memory_mb = 0;  // of address space [MiB]
+  bool study = false;    // patient and study are read too (dicom_study.h)
 };
 
 }  // namespace burr::io

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLongestText = std::size_t{1} << 16;
 constexpr std::size_t kMostLabels = 4096, kMostNotices = 4096, kMostSeries = 4096,
-                      kMostQuestions = 16;
+                      kMostQuestions = 16, kMostOfStudy = 64;
 
 class Packer {
  public:
@@ -105,7 +105,7 @@ class Unpacker {
 };
 
 // both sides must agree about this, structs included
-std::string version() { return std::string("fence 5 of burr ") + base::version(); }
+std::string version() { return std::string("fence 6 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {
   switch (static_cast<Trouble>(number)) {
@@ -147,6 +147,14 @@ void pack_scan(Packer& to, const Scan& scan) {
     for (const float c : label.colour) to.put(c);
     to.put(label.meaning);
     to.put(label.in_file);
+  }
+  to.put(static_cast<std::uint8_t>(scan.study.has_value()));
+  if (!scan.study) return;
+  to.put(scan.study->characters);
+  to.put(static_cast<std::uint32_t>(scan.study->values.size()));
+  for (const auto& [tag, text] : scan.study->values) {
+    to.put(tag);
+    to.put(text);
   }
 }
 
@@ -196,6 +204,13 @@ void unpack_scan(Unpacker& from, Scan& scan) {
     label.in_file = from.get<std::int64_t>();
     scan.label_names.push_back(std::move(label));
   }
+  if (from.get<std::uint8_t>() == 0) return;
+  DicomStudy& study = scan.study.emplace();
+  study.characters = from.text();
+  for (std::size_t n = from.count(kMostOfStudy); n > 0 && from.good(); --n) {
+    const auto tag = from.get<std::uint32_t>();
+    study.values[tag] = from.text();
+  }
 }
 
 }  // namespace
@@ -207,6 +222,7 @@ std::size_t pack(const FenceRequest& request, std::span<std::uint8_t> letter) {
   to.put(request.options.series);
   to.put(request.options.spacing_mm);
   to.put(static_cast<std::uint8_t>(request.options.check_values));
+  to.put(static_cast<std::uint8_t>(request.options.study));
   to.put(request.options.seconds);
   to.put(request.options.memory_mb);
   return to.size();
@@ -219,6 +235,7 @@ bool unpack(std::span<const std::uint8_t> bytes, FenceRequest& request) {
   request.options.series = from.text();
   for (int a = 0; a < 3; ++a) request.options.spacing_mm[a] = from.get<double>();
   request.options.check_values = from.get<std::uint8_t>() != 0;
+  request.options.study = from.get<std::uint8_t>() != 0;
   request.options.seconds = from.get<double>();
   request.options.memory_mb = from.get<double>();
   return from.whole();

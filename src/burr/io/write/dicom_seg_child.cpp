@@ -1,0 +1,335 @@
+// Segmentation IOD as in PS3.3 A.51, by the library libdcmseg of DCMTK. Only burr-seg holds this file.
+#include "burr/io/write/dicom_seg_child.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcfilefo.h>
+#include <dcmtk/dcmdata/dcspchrs.h>
+#include <dcmtk/dcmfg/fgfracon.h>
+#include <dcmtk/dcmfg/fgpixmsr.h>
+#include <dcmtk/dcmfg/fgplanor.h>
+#include <dcmtk/dcmfg/fgplanpo.h>
+#include <dcmtk/dcmseg/segdoc.h>
+#include <dcmtk/dcmseg/segment.h>
+#include <dcmtk/oflog/oflog.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace burr::io {
+namespace {
+
+using nlohmann::json;
+
+void say(const std::string& line) {
+  const std::string text = line + "\n";
+  static_cast<void>(!::write(kSegMessages, text.data(), text.size()));
+}
+
+// A step of the library that failed ends the program with a sentence.
+void demand(const OFCondition& done, const char* what) {
+  if (done.bad()) throw std::runtime_error(std::string(what) + ": " + done.text());
+}
+
+// A number as DS, whose values have at most 16 letters, as exactly as fits.
+OFString decimal(double value) {
+  constexpr int kMost = 16, kDigits = 17;
+  std::array<char, 64> text = {};
+  for (int digits = kDigits; digits > 0; --digits) {
+    const int size =
+        std::snprintf(text.data(), text.size(), "%.*g", digits, value == 0 ? 0.0 : value);
+    if (size > 0 && size <= kMost) break;
+  }
+  return text.data();
+}
+
+OFString text_of(const json& value) { return value.get<std::string>().c_str(); }
+
+// With a meaning to be replaced: see add_texts().
+CodeSequenceMacro code_of(const json& code) {
+  return {text_of(code[0]), text_of(code[1]), "meaning"};
+}
+
+// The job, and where its labels lie.
+struct Job {
+  json told;
+  const std::uint8_t* labels = nullptr;
+  std::size_t columns = 0, rows = 0, slices = 0;
+
+  [[nodiscard]] const std::uint8_t* slice(std::size_t k) const {
+    return labels + k * rows * columns;
+  }
+};
+
+Job read_job() {
+  struct stat facts = {};
+  if (::fstat(kSegJob, &facts) != 0 || facts.st_size < 8)
+    throw std::runtime_error("burr-seg was told nothing");
+  const auto size = static_cast<std::size_t>(facts.st_size);
+  void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, kSegJob, 0);
+  if (at == MAP_FAILED) throw std::runtime_error("its memory cannot be read");
+  const auto* bytes = static_cast<const std::uint8_t*>(at);
+  std::uint64_t length = 0;
+  std::memcpy(&length, bytes, sizeof length);
+  if (length > size - sizeof length) throw std::runtime_error("burr-seg was told too little");
+  Job job;
+  job.told = json::from_cbor(bytes + sizeof length, bytes + sizeof length + length);
+  job.labels = bytes + sizeof length + length;
+  job.columns = job.told.at("size").at(0).get<std::size_t>();
+  job.rows = job.told.at("size").at(1).get<std::size_t>();
+  job.slices = job.told.at("size").at(2).get<std::size_t>();
+  if (size - sizeof length - length != job.columns * job.rows * job.slices)
+    throw std::runtime_error("burr-seg belongs to another version of burr; install burr again");
+  return job;
+}
+
+std::unique_ptr<DcmSegmentation> empty_segmentation(const Job& job) {
+  const OFString version = text_of(job.told["version"]);
+  const IODGeneralEquipmentModule::EquipmentInfo equipment("burr", "burr", "none", version);
+  const ContentIdentificationMacro content("1", "SEGMENTATION", "Labels written by burr", "");
+  DcmSegmentation* made = nullptr;
+  demand(DcmSegmentation::createBinarySegmentation(made, static_cast<Uint16>(job.rows),
+                                                   static_cast<Uint16>(job.columns), equipment,
+                                                   content),
+         "a segmentation cannot be made");
+  std::unique_ptr<DcmSegmentation> seg(made);
+  const json& uids = job.told["uids"];
+  demand(seg->getFrameOfReference().setFrameOfReferenceUID(text_of(uids["frame_of_reference"])),
+         "the frame of reference of the scan is no UID");
+  demand(seg->getSeries().setSeriesNumber("300"), "the number of the series");
+  // before the first frame, or the library complains
+  const OFString dimensions = text_of(uids["dimensions"]);
+  IODMultiframeDimensionModule& module = seg->getDimensions();
+  demand(module.addDimensionIndex(DCM_ReferencedSegmentNumber, dimensions,
+                                  DCM_SegmentIdentificationSequence, "Segment"),
+         "the order of the frames");
+  demand(module.addDimensionIndex(DCM_ImagePositionPatient, dimensions, DCM_PlanePositionSequence,
+                                  "Slice"),
+         "the order of the frames");
+  return seg;
+}
+
+void add_geometry(const Job& job, DcmSegmentation& seg) {
+  const json &spacing = job.told["spacing"], &axes = job.told["axes"];
+  FGPixelMeasures measures;
+  demand(measures.setPixelSpacing(decimal(spacing[1]) + "\\" + decimal(spacing[0])),
+         "the distance of the voxels");
+  demand(measures.setSliceThickness(decimal(spacing[2])), "the distance of the slices");
+  demand(measures.setSpacingBetweenSlices(decimal(spacing[2])), "the distance of the slices");
+  demand(seg.addForAllFrames(measures), "the distance of the voxels");
+  std::unique_ptr<FGPlaneOrientationPatient> orientation(FGPlaneOrientationPatient::createMinimal(
+      decimal(axes[0]), decimal(axes[1]), decimal(axes[2]), decimal(axes[3]), decimal(axes[4]),
+      decimal(axes[5])));
+  if (!orientation) throw std::runtime_error("the directions of the voxels");
+  demand(seg.addForAllFrames(*orientation), "the directions of the voxels");
+}
+
+void add_segments(const Job& job, DcmSegmentation& seg) {
+  const std::string by = job.told["by"].get<std::string>();
+  const auto kind = by == "AUTOMATIC" ? DcmSegTypes::SAT_AUTOMATIC
+                    : by == "MANUAL"  ? DcmSegTypes::SAT_MANUAL
+                                      : DcmSegTypes::SAT_SEMIAUTOMATIC;
+  const OFString algorithm = by == "MANUAL" ? "" : "name";
+  for (const json& one : job.told["segments"]) {
+    DcmSegment* segment = nullptr;
+    demand(DcmSegment::create(segment, "name", code_of(one["category"]), code_of(one["type"]), kind,
+                              algorithm),
+           "a segment");
+    const json& lab = one["lab"];
+    demand(segment->setRecommendedDisplayCIELabValue(lab[0].get<Uint16>(), lab[1].get<Uint16>(),
+                                                     lab[2].get<Uint16>()),
+           "a colour");
+    Uint16 number = 0;
+    demand(seg.addSegment(segment, number), "a segment");
+  }
+}
+
+// Which labels each slice has.
+std::vector<std::array<bool, 256>> labels_of_slices(const Job& job) {
+  std::vector<std::array<bool, 256>> has(job.slices);
+  for (std::size_t k = 0; k < job.slices; ++k) {
+    has[k].fill(false);
+    const std::uint8_t* slice = job.slice(k);
+    for (std::size_t n = 0; n < job.rows * job.columns; ++n) has[k][slice[n]] = true;
+  }
+  return has;
+}
+
+std::size_t add_frames(const Job& job, DcmSegmentation& seg) {
+  const json &spacing = job.told["spacing"], &axes = job.told["axes"], &origin = job.told["origin"],
+             &segments = job.told["segments"];
+  const auto has = labels_of_slices(job);
+  std::vector<Uint32> place(job.slices, 0);  // among the slices with frames, from 1
+  std::size_t all = 0;
+  for (std::size_t k = 0, used = 0; k < job.slices; ++k) {
+    std::size_t frames = 0;
+    for (const json& one : segments) frames += has[k][one["value"].get<std::size_t>()] ? 1 : 0;
+    all += frames;
+    if (frames > 0) place[k] = static_cast<Uint32>(++used);
+  }
+  const double gap = spacing[2].get<double>();
+  std::vector<Uint8> pixels(job.rows * job.columns);
+  std::size_t done = 0;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const auto value = segments[s]["value"].get<std::uint8_t>();
+    for (std::size_t k = 0; k < job.slices; ++k) {
+      if (!has[k][value]) continue;
+      const std::uint8_t* slice = job.slice(k);
+      for (std::size_t n = 0; n < pixels.size(); ++n) pixels[n] = slice[n] == value ? 1 : 0;
+      std::array<OFString, 3> at;
+      for (std::size_t a = 0; a < 3; ++a)
+        at[a] = decimal(origin[a].get<double>() +
+                        gap * static_cast<double>(k) * axes[6 + a].get<double>());
+      FGPlanePosPatient position;
+      demand(position.setImagePositionPatient(at[0], at[1], at[2]), "the place of a frame");
+      FGFrameContent content;
+      demand(content.setDimensionIndexValues(static_cast<Uint32>(s + 1), 0), "a frame");
+      demand(content.setDimensionIndexValues(place[k], 1), "a frame");
+      OFVector<FGBase*> groups;
+      groups.push_back(&position);
+      groups.push_back(&content);
+      demand(seg.addFrame(pixels.data(), static_cast<Uint16>(s + 1), groups), "a frame");
+      if (++done % 32 == 0)
+        say("progress " +
+            std::to_string(0.7 * static_cast<double>(done) / static_cast<double>(all)));
+    }
+  }
+  return done;
+}
+
+// The texts of the segments. The library takes all letters but those of ASCII for wrong, so it got others in their place.
+void add_texts(const Job& job, DcmDataset& set) {
+  const json& segments = job.told["segments"];
+  for (std::size_t n = 0; n < segments.size(); ++n) {
+    DcmItem* item = nullptr;
+    demand(set.findAndGetSequenceItem(DCM_SegmentSequence, item, static_cast<signed long>(n)),
+           "a segment");
+    demand(item->putAndInsertString(DCM_SegmentLabel, text_of(segments[n]["name"]).c_str()),
+           "the name of a segment");
+    if (job.told["by"] != "MANUAL")
+      demand(item->putAndInsertString(DCM_SegmentAlgorithmName,
+                                      text_of(job.told["algorithm"]).c_str()),
+             "the name of the method");
+    for (const auto& [tag, what] :
+         {std::pair{DCM_SegmentedPropertyCategoryCodeSequence, "category"},
+          std::pair{DCM_SegmentedPropertyTypeCodeSequence, "type"}}) {
+      DcmItem* code = nullptr;
+      demand(item->findAndGetSequenceItem(tag, code), "a code");
+      demand(code->putAndInsertString(DCM_CodeMeaning, text_of(segments[n][what][2]).c_str()),
+             "a code");
+    }
+  }
+}
+
+// Patient and study, in UTF-8 as all other texts.
+void add_study(const Job& job, DcmDataset& set) {
+  demand(set.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 192"), "the letters");
+  const OFString letters = text_of(job.told["characters"]);
+  DcmSpecificCharacterSet convert;
+  const bool other = !letters.empty() && letters != "ISO_IR 192" && letters != "ISO_IR 6";
+  if (other)
+    demand(convert.selectCharacterSet(letters),
+           "the letters of the scan's patient cannot be read; leave the patient out with "
+           "--no-patient");
+  for (const json& one : job.told["study"]) {
+    const auto tag = one[0].get<Uint32>();
+    const auto raw = one[1].get<std::string>();
+    OFString text(raw.data(), raw.size());
+    // the letters ^ and = separate the parts of a name, and a backslash two values
+    if (other)
+      demand(convert.convertString(OFString(raw.data(), raw.size()), text, "\\^="),
+             "the letters of the scan's patient cannot be read; leave the patient out with "
+             "--no-patient");
+    demand(set.putAndInsertString(
+               DcmTag(static_cast<Uint16>(tag >> 16), static_cast<Uint16>(tag & 0xFFFF)),
+               text.c_str()),
+           "what the scan states of its patient and study");
+  }
+}
+
+void add_instance(const Job& job, DcmDataset& set) {
+  const json& uids = job.told["uids"];
+  const OFString date = text_of(job.told["date"]), time = text_of(job.told["time"]);
+  const auto put = [&](const DcmTagKey& tag, const OFString& text) {
+    demand(set.putAndInsertString(tag, text.c_str()), "what the file says of itself");
+  };
+  put(DCM_SOPInstanceUID, text_of(uids["instance"]));
+  put(DCM_SeriesInstanceUID, text_of(uids["series"]));
+  put(DCM_StudyInstanceUID, text_of(uids["study"]));
+  put(DCM_FrameOfReferenceUID, text_of(uids["frame_of_reference"]));
+  put(DCM_SeriesDescription, "Labels written by burr");
+  put(DCM_ContentDate, date);
+  put(DCM_ContentTime, time);
+  put(DCM_SeriesDate, date);
+  put(DCM_SeriesTime, time);
+  put(DCM_InstanceCreationDate, date);
+  put(DCM_InstanceCreationTime, time);
+  put(DCM_SegmentsOverlap, "NO");
+}
+
+void write_file() {
+  const Job job = read_job();
+  auto seg = empty_segmentation(job);
+  add_segments(job, *seg);
+  add_geometry(job, *seg);
+  const std::size_t frames = add_frames(job, *seg);
+  // each frame is made above in the same way; to check thousands takes minutes
+  seg->setCheckFGOnWrite(frames < 100 ? OFTrue : OFFalse);
+  seg->setCheckDimensionsOnWrite(frames < 100 ? OFTrue : OFFalse);
+  DcmFileFormat file;
+  demand(seg->writeDataset(*file.getDataset()), "the segmentation is not complete");
+  seg.reset();
+  say("progress 0.85");
+  add_texts(job, *file.getDataset());
+  add_study(job, *file.getDataset());
+  add_instance(job, *file.getDataset());
+  demand(file.saveFile("-", EXS_LittleEndianExplicit), "the file cannot be written");
+  if (std::fflush(stdout) != 0) throw std::runtime_error("the file cannot be written");
+  say("frames " + std::to_string(frames));
+}
+
+}  // namespace
+
+int write_one_segmentation() {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // Ctrl-C goes to every process at the terminal; the asker decides whether to stop
+  for (const int number : {SIGINT, SIGQUIT, SIGHUP}) ::signal(number, SIG_IGN);
+  ::signal(SIGPIPE, SIG_DFL);  // an asker that is gone needs nothing
+  struct stat facts = {};
+  if (::fstat(kSegMessages, &facts) != 0 || !S_ISFIFO(facts.st_mode)) {
+    std::fputs("burr-seg writes DICOM segmentations for burr; do not start it by hand\n", stderr);
+    return 2;
+  }
+  OFLog::configure(OFLogger::OFF_LOG_LEVEL);
+  try {
+    if (!dcmDataDict.isDictionaryLoaded())
+      throw std::runtime_error(
+          "the names of DICOM's elements (dicom.dic of DCMTK) cannot be found; install the "
+          "package libdcmtk17 again");
+    write_file();
+  } catch (const std::bad_alloc&) {
+    say("error there is too little memory for so many frames; write .seg.nrrd, or fewer voxels "
+        "(--voxel-mm)");
+    return 1;
+  } catch (const std::exception& problem) {
+    say(std::string("error ") + problem.what());
+    return 1;
+  }
+  ::_exit(0);  // the library may keep what it likes
+}
+
+}  // namespace burr::io

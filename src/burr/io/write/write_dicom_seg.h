@@ -1,0 +1,76 @@
+// io/write/write_dicom_seg.h - writes labels as a DICOM segmentation (SEG, PS3.3 A.51): binary, one segment for each
+// structure, on the grid of the labels.
+//
+//     auto written = io::write_dicom_seg(scan, "seg.dcm", {.study = ct.study}, progress);
+//
+// The library that writes DICOM runs in a process of its own, `burr-seg`, which is looked for in the environment variable
+// BURR_SEG, then as burr-read is. The file is complete or not there.
+//
+// Frames without a voxel of their segment are left out, and so are segments without a voxel. Segments are numbered from
+// 1 without a gap, in the order of their labels, as DICOM wants it. They never overlap, because a voxel has one label.
+// Frame: LPS. Thread: any. Memory: the labels, and in the other process three bits for each voxel of each frame.
+// Errors: Trouble::io, Trouble::data, Trouble::interrupted, Trouble::usage (a root of UIDs that is none).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "burr/base/progress.h"
+#include "burr/base/result.h"
+#include "burr/io/dicom_study.h"
+#include "burr/io/scan.h"
+#include "burr/volume/bone.h"
+
+namespace burr::io {
+
+// A code of a public list, for example {"91609006", "SCT", "Mandible"}.
+struct DicomCode {
+  std::string value, scheme, meaning;
+};
+// What a structure is, as somebody who knows has said.
+struct SegmentCodes {
+  std::optional<DicomCode> category, type;
+};
+
+enum class SegmentedBy : std::uint8_t { automatic, semiautomatic, manual };
+
+struct SegOptions {
+  std::optional<DicomStudy> study;    // whose scan was segmented; none: a new study of nobody
+  std::string uid_root;               // of new UIDs; empty: 2.25, which needs no registration
+  std::map<int, SegmentCodes> codes;  // by label
+  SegmentedBy by = SegmentedBy::semiautomatic;
+  std::string algorithm;  // name, for all but manual; empty: burr and its version
+};
+
+struct SegSegment {
+  int number = 0;  // in the file
+  int label = 0;
+  std::string name;
+  std::size_t voxels = 0;
+};
+struct SegWritten {
+  std::vector<SegSegment> segments;
+  std::size_t frames = 0;
+  std::vector<std::string> notices;  // what the user must know, one sentence each
+};
+
+// labels: a label map (Scan::labels); the label 0 is the background.
+[[nodiscard]] Result<SegWritten> write_dicom_seg(const Scan& labels, const std::string& path,
+                                                 const SegOptions& options, Progress& progress);
+
+// The labels of a bone, on its grid, as write_labels() of write_volume.h writes them; with the names and colours of its
+// tissues. Nothing is written.
+[[nodiscard]] Scan labels_of_bone(const volume::Bone& bone);
+
+// Recommended Display CIELab Value of a colour of sRGB 0..1; the reader has the inverse (io/read/dicom_seg.h).
+[[nodiscard]] std::array<int, 3> dicom_lab_of_srgb(const std::array<float, 3>& rgb);
+
+// A UID that nobody else has: root, a point, and a random number. Error: the root is none, or too long.
+[[nodiscard]] Result<std::string> new_uid(const std::string& root);
+
+}  // namespace burr::io
