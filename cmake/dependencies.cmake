@@ -32,6 +32,7 @@ find_library(BURR_GDCM_COMMON gdcmCommon REQUIRED)
 add_library(burr_gdcm INTERFACE)
 target_include_directories(burr_gdcm SYSTEM INTERFACE ${BURR_GDCM_INCLUDE})
 target_link_libraries(burr_gdcm INTERFACE ${BURR_GDCM_MSFF} ${BURR_GDCM_DSED} ${BURR_GDCM_COMMON})
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)  # data sets for programs that learn; for the program only
 # the store of learners: a file, or a centre's server
 pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(POSTGRES REQUIRED IMPORTED_TARGET libpq)

@@ -27,7 +27,7 @@ class Examples(unittest.TestCase):
         self.place.cleanup()
 
     def test_all_are_here(self):
-        self.assertEqual({file.stem for file in EXAMPLES.glob("*.py")}, {"load_and_cut", "dataset", "learn"})
+        self.assertEqual({file.stem for file in EXAMPLES.glob("*.py")}, {"load_and_cut", "dataset", "learn", "clone"})
 
     def test_load_and_cut(self):
         rows = script("load_and_cut")(out=self.folder)
@@ -49,6 +49,12 @@ class Examples(unittest.TestCase):
     def test_a_policy_improves(self):
         first, last = script("learn")(12)
         self.assertGreater(last, first + 1)
+
+    def test_a_policy_learns_from_recordings(self):
+        made = script("clone")()
+        self.assertGreater(made["pairs"], 500)
+        self.assertLess(made["clone_mm"], 0.5 * made["mean_mm"])  # on a session that it has not seen
+        self.assertGreater(made["clone_reward"], made["chance_reward"] + 1)
 
 
 if __name__ == "__main__":

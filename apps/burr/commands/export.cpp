@@ -13,6 +13,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
+#include "commands/export_dataset.h"
 #include "commands/export_pieces.h"
 #include "commands/json_line.h"
 #include "commands/outputs.h"
@@ -27,6 +28,7 @@ struct Options {
   double at_s = -1;         // moment in a recording; below 0: its end
   std::string part = "bone", frame = "lps";
   bool scan = false, largest = false;
+  DatasetOptions dataset;
   bool json = false, force = false;
 
   [[nodiscard]] io::ExportOptions what() const {
@@ -133,9 +135,35 @@ Status check_pieces(const Options& options) {
   return fine();
 }
 
+// What a data set is, and what the other parts are, do not mix.
+Status check_dataset(const Options& options) {
+  const std::string given = given_of(options.dataset);
+  if (options.part != "dataset")
+    return given.empty()
+               ? fine()
+               : error(Trouble::usage, given +
+                                           ": is of --part dataset only; leave it out, or add "
+                                           "--part dataset");
+  if (!is_recording(options.source))
+    return error(Trouble::usage, "--part dataset: give a recording (.mcap)");
+  const char* const wrong = options.largest          ? "--largest"
+                            : options.scan           ? "--scan"
+                            : options.at_s >= 0      ? "--at"
+                            : options.frame != "lps" ? "--frame"
+                                                     : nullptr;
+  if (wrong == nullptr) return fine();
+  return error(Trouble::usage, fmt::format("{}: is of meshes and volumes; leave it out, because a "
+                                           "data set holds the whole recording",
+                                           wrong));
+}
+
 Status run(const Options& options) {
-  const Status asked = check_pieces(options);
+  Status asked = check_pieces(options);
+  if (asked) asked = check_dataset(options);
   if (!asked) return asked;
+  if (options.part == "dataset")
+    return export_dataset(options.source, options.volume, options.out, options.dataset,
+                          options.json, progress());
   const Status possible = io::check_export(options.out, options.what());
   if (!possible) return possible;
   const Status allowed = check_outputs(
@@ -188,13 +216,15 @@ void add(CLI::App& app, Todo& todo) {
   command
       ->add_option(
           "--out", options->out,
-          "file to write; its ending decides the format: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd")
+          "file to write; its ending decides the format: .stl .ply .obj .3mf .glb .seg.nrrd .nrrd, "
+          "or .hdf5 of --part dataset")
       ->required();
   command
       ->add_option(
           "--part", options->part,
-          "what to write: bone, removed, added, or pieces: a numbered file for each separate piece")
-      ->check(CLI::IsMember({"bone", "removed", "added", "pieces"}))
+          "what to write: bone, removed, added; pieces: a numbered file for each separate piece; "
+          "dataset: the recording as HDF5 in the layout of FIVRS")
+      ->check(CLI::IsMember({"bone", "removed", "added", "pieces", "dataset"}))
       ->capture_default_str();
   command
       ->add_option("--frame", options->frame,
@@ -211,6 +241,7 @@ void add(CLI::App& app, Todo& todo) {
       "--volume", options->volume.source,
       "for a recording: the volume it was made from (default: burr searches for it)");
   add_volume_options(*command, options->volume);
+  add_dataset_options(*command, options->dataset);
   add_force(*command, options->force);
   command->add_flag("--json", options->json, "one JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });
