@@ -46,7 +46,7 @@ if(BURR_APP)
   burr_of_program(burr_program <CLI/CLI.hpp>)
   target_link_libraries(burr_program PRIVATE burr_app OpenSSL::Crypto)
   if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ compiles too
-    add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program>)
+    add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program> $<TARGET_OBJECTS:burr_dataset>)
   endif()
   if(NOT BURR_WARNINGS_ONLY)  # it contains the reference code of `burr bench tick`, compiled like
                               # the library

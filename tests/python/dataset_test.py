@@ -533,6 +533,17 @@ class FromRecordings(Folder):
         np.testing.assert_allclose(shown.actions[1:4, 0], burr.env.MOST_MOVE_M)
         self.assertEqual(shown.actions.dtype, np.float32)
 
+    def test_steps_with_a_lifted_hand_are_left_out(self):
+        with self.scene().session(record=str(self.folder / "lifted.mcap")) as session:
+            session.hand((0, 0, 8e-3), ticks=0)
+            session.step(605)
+            for buttons, ticks in ((0, 40), (burr.dataset.LIFTED, 10), (0, 100)):  # ticks 645 to 654
+                session.hand((0, 0, 8e-3), buttons=buttons, ticks=1)
+                session.step(ticks)
+        shown = burr.dataset.from_recordings(self.folder / "lifted.mcap")
+        # steps begin at 599, 619 ...: that from 639 to 659 is left out
+        np.testing.assert_array_equal(shown.tick, [599, 619, 659, 679, 699, 719])
+
     def test_refusals(self):
         with self.assertRaisesRegex(burr.Error, "no file has such a name"):
             burr.dataset.from_recordings(str(self.folder / "none*.mcap"))
