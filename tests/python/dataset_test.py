@@ -296,6 +296,7 @@ class Export(Folder):
             np.testing.assert_allclose(np.concatenate([part[name] for part in parts]) - 1.7e9, whole[name], rtol=0, atol=1e-6)
         np.testing.assert_array_equal(np.concatenate([part[VOXELS]["voxel_removed"][:, 1:] for part in parts]),
                                       whole[VOXELS]["voxel_removed"][:, 1:])
+        self.assertGreater(sum(len(part[VOXELS]["voxel_time_stamp"]) > 0 for part in parts), 2)
         for part in parts:
             self.assertLessEqual(len(part[f"{SIGHT}/time"]), 21)
             rows = part[VOXELS]["voxel_removed"][:, 0]
