@@ -40,6 +40,7 @@ foreach(library dcmseg dcmfg dcmiod dcmdata oflog ofstd)
   find_library(BURR_DCMTK_${library} ${library} REQUIRED)
   target_link_libraries(burr_dcmtk INTERFACE ${BURR_DCMTK_${library}})
 endforeach()
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)  # data sets for programs that learn; for the program only
 # the store of learners: a file, or a centre's server
 pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(POSTGRES REQUIRED IMPORTED_TARGET libpq)

@@ -109,6 +109,10 @@ list(FILTER school_sources INCLUDE REGEX "/src/burr/school/")
 if(school_sources)
   list(REMOVE_ITEM rest ${school_sources})
 endif()
+# So is the writer of data sets: who cuts bone with libburr.so loads no HDF5.
+set(dataset_sources ${rest})
+list(FILTER dataset_sources INCLUDE REGEX "/src/burr/dataset/")
+list(REMOVE_ITEM rest ${dataset_sources})
 set(known ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
   ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 list(REMOVE_ITEM rest ${known})
@@ -151,6 +155,9 @@ target_link_libraries(burr_school PUBLIC burr PRIVATE burr_options fmt::fmt nloh
 add_library(burr_lrs STATIC ${lrs_sources})
 target_link_libraries(burr_lrs PUBLIC burr_school PRIVATE burr burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
 burr_common_headers(burr_school <fmt/format.h>)
+add_library(burr_dataset STATIC ${dataset_sources})
+target_link_libraries(burr_dataset PUBLIC burr PRIVATE burr_options fmt::fmt PkgConfig::HDF5)
+burr_common_headers(burr_dataset <fmt/format.h>)
 
 # what the built-in bones are shaped by (program.cmake)
 file(GLOB BURR_PHANTOMS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/phantom/*)

@@ -20,7 +20,7 @@ if(BURR_APP)
   function(burr_of_program target)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
       ${PROJECT_SOURCE_DIR}/third_party)
-    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_serve burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
+    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_serve burr_dataset burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
     burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp> ${ARGN})
@@ -46,7 +46,7 @@ if(BURR_APP)
   burr_of_program(burr_program <CLI/CLI.hpp>)
   target_link_libraries(burr_program PRIVATE burr_app OpenSSL::Crypto)
   if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ compiles too
-    add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program>)
+    add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program> $<TARGET_OBJECTS:burr_dataset>)
   endif()
   if(NOT BURR_WARNINGS_ONLY)  # it contains the reference code of `burr bench tick`, compiled like
                               # the library

@@ -45,6 +45,7 @@ ALLOWED = {
     "http": "",
     "lrs": "school http",
     "workshop": "sim edit tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
+    "dataset": "workshop sim record render surface tick device volume tool",
 }
 BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
 
@@ -77,6 +78,7 @@ ELSEWHERE = [
     (r"openxr/", ["render/gl"], "a headset"),
     (r"SDL", ["render/gl", "sound"], "graphics and sound"),
     (r"sqlite3|libpq|postgresql", ["school"], "a database"),
+    (r"hdf5[.]h|H5", ["dataset"], "a format of data sets"),
     (r"itk|gdcm|dcmtk/|assimp/|vtk|png[.]h|yaml[.]h", ["io"], "a file format's library"),
     (r"dds/|crtk_messages", ["device/crtk"], "the bus of ROS 2"),
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only

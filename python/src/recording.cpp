@@ -13,6 +13,7 @@
 #include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recording.h"
+#include "burr/workshop/spared.h"
 #include "common.h"
 #include "rows.h"
 
@@ -271,6 +272,13 @@ void add_recording(py::module_& module) {
   recording.def_property_readonly("case", [](const Recording& self) -> py::object {
     const auto& known = self.player().info().work_case;
     return known ? py::object(py::str(known->name)) : py::object(py::none());
+  });
+  recording.def_property_readonly("spare", [](const Recording& self) {
+    const record::SessionInfo& info = self.player().info();
+    py::list names;
+    for (const volume::TissueId id : workshop::read_spared(info))
+      names.append(info.volume.tissues[id].name);
+    return names;
   });
   recording.def_property_readonly("info", [](const Recording& self) {
     return py::module_::import("json").attr("loads")(record::to_json(self.player().info()));

@@ -33,7 +33,8 @@ class Examples(unittest.TestCase):
         self.place.cleanup()
 
     def test_all_are_here(self):
-        self.assertEqual({file.stem for file in EXAMPLES.glob("*.py")}, {"load_and_cut", "dataset", "learn", "psychophysics", "score_study"})
+        self.assertEqual({file.stem for file in EXAMPLES.glob("*.py")},
+                         {"load_and_cut", "dataset", "learn", "clone", "psychophysics", "score_study"})
 
     def test_load_and_cut(self):
         rows = script("load_and_cut")(out=self.folder)
@@ -93,6 +94,12 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(told["of"][11]["g"], study.reliability(marks), places=12)
         marks = np.array([[1.0, 2.0], [2.0, 1.0], [1.5, 1.5]])
         self.assertEqual(study.reliability(marks), 0)  # nobody differs
+
+    def test_a_policy_learns_from_recordings(self):
+        made = script("clone")()
+        self.assertGreater(made["pairs"], 500)
+        self.assertLess(made["clone_mm"], 0.5 * made["mean_mm"])  # on a session that it has not seen
+        self.assertGreater(made["clone_reward"], made["chance_reward"] + 1)
 
 
 if __name__ == "__main__":

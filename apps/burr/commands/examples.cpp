@@ -47,6 +47,8 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"export", "s.mcap --part bone --out bone.stl", "a mesh to print"},
     {"export", "s.mcap --part removed --frame print --out removed.3mf", "what was removed"},
     {"export", "s.mcap --part pieces --out piece.stl", "each piece that came free, by itself"},
+    {"export", "s.mcap --part dataset --out s.hdf5", "the session for programs that learn"},
+    {"export", "s.mcap --part dataset --out s.hdf5 --images 640x480 --fps 10", "with pictures"},
     {"export", "ct_folder/ --out bone.seg.nrrd", "a scan as labels"},
     {"pieces", "s.mcap", "where free pieces were moved, and how they fit"},
     {"pieces", "s.mcap --at 12.5 --json", "at 12.5 s, for another program"},

@@ -18,6 +18,7 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/command.h"
+#include "commands/export_dataset.h"
 #include "commands/export_dicom.h"
 #include "commands/export_pieces.h"
 #include "commands/json_line.h"
@@ -33,6 +34,7 @@ struct Options {
   double at_s = -1;         // moment in a recording; below 0: its end
   std::string part = "bone", frame = "lps";
   bool scan = false, largest = false;
+  DatasetOptions dataset;
   bool json = false, force = false;
   DicomOptions dicom;
 
@@ -214,9 +216,35 @@ Result<io::SegOptions> dicom_of(const Options& options, const Bones& bones,
                      io::labels_of_bone(now), progress());
 }
 
+// What a data set is, and what the other parts are, do not mix.
+Status check_dataset(const Options& options) {
+  const std::string given = given_of(options.dataset);
+  if (options.part != "dataset")
+    return given.empty()
+               ? fine()
+               : error(Trouble::usage, given +
+                                           ": is of --part dataset only; leave it out, or add "
+                                           "--part dataset");
+  if (!is_recording(options.source))
+    return error(Trouble::usage, "--part dataset: give a recording (.mcap)");
+  const char* const wrong = options.largest          ? "--largest"
+                            : options.scan           ? "--scan"
+                            : options.at_s >= 0      ? "--at"
+                            : options.frame != "lps" ? "--frame"
+                                                     : nullptr;
+  if (wrong == nullptr) return fine();
+  return error(Trouble::usage, fmt::format("{}: is of meshes and volumes; leave it out, because a "
+                                           "data set holds the whole recording",
+                                           wrong));
+}
+
 Status run(const Options& options) {
-  const Status asked = check_parts(options);
+  Status asked = check_parts(options);
+  if (asked) asked = check_dataset(options);
   if (!asked) return asked;
+  if (options.part == "dataset")
+    return export_dataset(options.source, options.volume, options.out, options.dataset,
+                          options.json, progress());
   const Status possible = io::check_export(options.out, options.what());
   if (!possible) return possible;
   const Status allowed =
@@ -284,14 +312,14 @@ void add(CLI::App& app, Todo& todo) {
   command
       ->add_option("--out", options->out,
                    "file to write; its ending decides the format: .stl .ply .obj .3mf .glb "
-                   ".seg.nrrd .nrrd .dcm")
+                   ".seg.nrrd .nrrd .dcm, or .hdf5 of --part dataset")
       ->required();
   command
       ->add_option("--part", options->part,
-                   "what to write: bone, removed, added, labels: of a file, as they are, or "
-                   "pieces: a numbered "
-                   "file for each separate piece")
-      ->check(CLI::IsMember({"bone", "removed", "added", "labels", "pieces"}))
+                   "what to write: bone, removed, added; labels: of a file, as they are; pieces: a "
+                   "numbered file for each separate piece; dataset: the recording as HDF5 in the "
+                   "layout of FIVRS")
+      ->check(CLI::IsMember({"bone", "removed", "added", "labels", "pieces", "dataset"}))
       ->capture_default_str();
   command
       ->add_option("--frame", options->frame,
@@ -309,6 +337,7 @@ void add(CLI::App& app, Todo& todo) {
       "for a recording: the volume it was made from (default: burr searches for it)");
   add_volume_options(*command, options->volume);
   add_dicom_options(*command, options->dicom);
+  add_dataset_options(*command, options->dataset);
   add_force(*command, options->force);
   command->add_flag("--json", options->json, "one JSON object as the last line");
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

@@ -50,7 +50,7 @@ bool is_stl(std::string_view head, std::uintmax_t size) {
 }
 
 // What the first bytes must be; none: text is expected.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kBeginnings = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kBeginnings = {
     {{".png", "\x89PNG"},
      {".ply", "ply"},
      {".3mf", "PK"},
@@ -59,6 +59,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kBeginni
      {".mcap", "\x89MCAP0"},
      {".wav", "RIFF"},
      {".sqlite", "SQLite format 3"},
+     {".hdf5", "\x89HDF"},
+     {".h5", "\x89HDF"},
      {".bone", ""},
      {".html", "<"}}};
 

@@ -79,12 +79,14 @@ struct OtherHand {
 }  // namespace
 
 Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bone> bone,
-                             Progress& progress) {
+                             Progress& progress, RowLog* log) {
   auto recorded = settings_of(player.info(), player.path());
   if (!recorded) return recorded.error();
   volume::IsoVertices surface(*bone, recorded->settings.surface, 2, progress);
   device::ReplayedHand hand(recorded->device);
   tick::Servo servo(*bone, surface, hand, recorded->settings.servo);
+  if (log != nullptr && log->crossed() != nullptr)
+    servo.set_brick_watch(&log->crossed()->written());
   auto other = OtherHand::of(player, servo);
   if (!other) return other.error();
 
@@ -119,6 +121,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     if (*other) (*other)->device.set(step.second->hand);
     const tick::TickRow& row = servo.tick((step.row.contact.flags & rt::kFlagWatchdog) != 0);
     servo.publish();
+    if (log != nullptr) log->note(row);
     if (moving && servo.move_state() != tick::MoveState::refused) {
       pieces.accept(*moving);
       under_way = std::move(moving);

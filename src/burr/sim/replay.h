@@ -14,6 +14,7 @@
 #include "burr/base/result.h"
 #include "burr/edit/piece_store.h"
 #include "burr/record/player.h"
+#include "burr/sim/row_log.h"
 #include "burr/sim/session.h"
 
 namespace burr::sim {
@@ -31,7 +32,9 @@ struct ReplayOutcome {
 
 // bone: as at the start of the session. Error: the recording's settings cannot be understood, or
 // progress was cancelled.
+// log: of this bone; gets the rows and the voxels of each tick. nullptr: nobody wants them.
 [[nodiscard]] Result<ReplayOutcome> replay(record::Player& player,
-                                           std::unique_ptr<volume::Bone> bone, Progress& progress);
+                                           std::unique_ptr<volume::Bone> bone, Progress& progress,
+                                           RowLog* log = nullptr);
 
 }  // namespace burr::sim

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "burr/math/rotation.h"
+#include "burr/render/handpiece.h"
 
 namespace burr::render::gl {
 
@@ -18,33 +19,6 @@ constexpr int kFlutes = 10;
 constexpr Colour kSteel = {0.58F, 0.60F, 0.63F}, kGrains = {0.42F, 0.38F, 0.30F};
 constexpr Colour kCollet = {0.34F, 0.35F, 0.37F}, kSatin = {0.66F, 0.67F, 0.68F},
                  kGrip = {0.20F, 0.22F, 0.25F};
-
-// A straight handpiece as drills for the ear and the skull have: the burr's shaft sticks out by 26
-// mm, the nose widens to the grip of 16 mm. Profiles from the end of the handpiece: z, r [m].
-constexpr double kOut = 26e-3;  // from the burr's centre
-using Profile = std::vector<std::pair<double, double>>;
-Profile collet_profile() {
-  return {{-1.5e-3, 0}, {-1.5e-3, 1.9e-3}, {0, 2.4e-3}, {4e-3, 2.8e-3}, {5e-3, 2.8e-3}};
-}
-Profile nose_profile() {
-  return {{5e-3, 2.8e-3},  {5e-3, 3.3e-3}, {16e-3, 4e-3}, {28e-3, 5.6e-3},
-          {38e-3, 7.3e-3}, {43e-3, 8e-3},  {46e-3, 8e-3}};
-}
-Profile grip_profile() {
-  constexpr double kGroove = 5e-3;
-  Profile z_r = {{46e-3, 8e-3}};
-  for (int n = 0; n < 9; ++n) {
-    const double z = 48e-3 + n * kGroove;
-    z_r.insert(z_r.end(),
-               {{z, 7.8e-3}, {z + 0.4e-3, 7.3e-3}, {z + 1.2e-3, 7.3e-3}, {z + 1.6e-3, 7.8e-3}});
-  }
-  z_r.insert(z_r.end(), {{93e-3, 7.8e-3}, {95e-3, 8.2e-3}});
-  return z_r;
-}
-Profile tail_profile() {
-  return {{95e-3, 8.2e-3},  {112e-3, 8.4e-3}, {118e-3, 7e-3},   {119e-3, 4.5e-3},
-          {135e-3, 4.5e-3}, {136e-3, 3.2e-3}, {150e-3, 3.2e-3}, {150e-3, 0}};
-}
 
 // A surface over (u, v) in [0, 1]^2: u goes once around +z counter-clockwise, v from -z to +z.
 // Normals by differences, so that flutes reflect correctly. darkens: grooves, by that much per depth.
@@ -183,14 +157,7 @@ void Shapes::make_shaft(const Burr& burr) {
   if (std::equal(wanted, wanted + 2, shaft_of_)) return;
   std::copy(wanted, wanted + 2, shaft_of_);
 
-  // a neck thinner than the head, so that the head can cut sideways; it widens to the shaft
-  const double neck = std::min(burr.shaft_radius, 0.55 * burr.radius);
-  const double z0 = 0.8 * burr.radius, z1 = z0 + 3 * burr.radius;
-  const double z2 = z1 + 4 * (burr.shaft_radius - neck) + 1e-6;
-  const double end = std::max(kOut, z2 + burr.radius);
-  send_turned(
-      shaft_,
-      {{z0, neck}, {z1, neck}, {z2, burr.shaft_radius}, {end, burr.shaft_radius}, {end, 0}});
+  send_turned(shaft_, shaft_profile(burr.radius, burr.shaft_radius));
 }
 
 void Shapes::add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
@@ -288,8 +255,8 @@ void Shapes::add_tool(const Burr& burr) {
   };
   const math::Pose& tool = burr.world_from_tool;
   add(shaft_, placed(tool, 1, 1), kSteel, true, false,
-      slices(burr.shaft_radius, 0, std::max(kOut, 12 * burr.radius)));
-  const math::Pose held = {tool * Vec3(0, 0, kOut), tool.q};
+      slices(burr.shaft_radius, 0, std::max(kShaftOut, 12 * burr.radius)));
+  const math::Pose held = {tool * Vec3(0, 0, kShaftOut), tool.q};
   add(collet_, placed(held, 1, 1), kCollet, true, false, slices(2.8e-3, -1.5e-3, 5e-3));
   std::vector<math::Aabb> nose;
   const Profile widths = nose_profile();
