@@ -8,8 +8,8 @@
 
 Units are SI in arrays; names of other units end in them: _mm, _rpm. World frame: LPS [m].
 """
-from burr._burr import (BUILD, ROWS_VERSION, Bone, Cancelled, Distance, Error, Hand, Mesh, Recording, Scene, Session, Snapshot,
+from burr._burr import (BUILD, ROWS_VERSION, Bone, Cancelled, Distance, Error, Hand, LawInput, Mesh, Recording, Scene, Session, Snapshot,
                         Tissue, __version__, cases, motions, phantoms, row_type, rubrics, tool_names)
 
-__all__ = ["BUILD", "ROWS_VERSION", "Bone", "Cancelled", "Distance", "Error", "Hand", "Mesh", "Recording", "Scene", "Session",
+__all__ = ["BUILD", "ROWS_VERSION", "Bone", "Cancelled", "Distance", "Error", "Hand", "LawInput", "Mesh", "Recording", "Scene", "Session",
            "Snapshot", "Tissue", "__version__", "cases", "motions", "phantoms", "row_type", "rubrics", "tool_names"]
