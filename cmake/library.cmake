@@ -50,7 +50,7 @@ list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 #     burr_render_gl     + OpenGL, SDL, OpenXR                    pictures
 #     burr_sound         + SDL                                    sound
 #     burr_device_...    + what its maker gives                   one each
-#     burr_workshop      + all of these                           opens things: bone, place, hand, recorder, live surface
+#     burr_workshop      + all of these, OpenSSL's hashes                        opens things: bone, place, hand, recorder, live surface
 #
 # burr_part(NAME WITH TARGET... FROM GLOB...): the sources that match; each belongs to one part.
 set(rest ${BURR_SOURCES})
@@ -88,7 +88,7 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/render/gl/x_errors.cp
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
-burr_part(burr_workshop FROM workshop/)
+burr_part(burr_workshop FROM workshop/ WITH OpenSSL::Crypto ${CMAKE_DL_LIBS})
 burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ surgeon/ sim/
   MORE ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/

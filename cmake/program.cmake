@@ -31,7 +31,7 @@ if(BURR_APP)
   endfunction()
 
   # the parts that tests use as well, compiled once: the window, the report, the doctor, and what they need
-  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/film_file commands/hand_options commands/html_page commands/interrupt commands/outputs commands/picture_size commands/piece_words commands/recording commands/session_words commands/tool_options commands/work school/products serve/stations
+  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/film_file commands/hand_options commands/html_page commands/interrupt commands/law_choice commands/outputs commands/picture_size commands/piece_words commands/recording commands/session_words commands/tool_options commands/work school/products serve/stations
     devices/trial devices/trial_words doctor/run_in_process doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
   file(GLOB_RECURSE window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
@@ -44,7 +44,7 @@ if(BURR_APP)
   add_executable(burr_program ${BURR_APP} ${CMAKE_BINARY_DIR}/page_files.cpp)
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
   burr_of_program(burr_program <CLI/CLI.hpp>)
-  target_link_libraries(burr_program PRIVATE burr_app OpenSSL::Crypto)
+  target_link_libraries(burr_program PRIVATE burr_app)
   if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ compiles too
     add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program> $<TARGET_OBJECTS:burr_dataset>)
   endif()

@@ -84,7 +84,7 @@ ELSEWHERE = [
     (r"HD/hd|HDU|openhaptics|dhdc|drdc|chai3d|haply", None, "a vendor's library"),  # device/<vendor> only
 ]
 # What headers may include: the standard library, Eigen, burr.
-PUBLIC = re.compile(r"^(Eigen/|burr/|[a-z_0-9]+$|sys/|unistd|pthread|sched|semaphore|[a-z]+intrin\.h$)")
+PUBLIC = re.compile(r"^(Eigen/|burr/|stdint\.h$|[a-z_0-9]+$|sys/|unistd|pthread|sched|semaphore|[a-z]+intrin\.h$)")
 
 # A header whose first comment says this may include more and belongs to its room. It is never
 # installed; cmake/install.cmake lists the headers that are.

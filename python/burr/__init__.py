@@ -8,11 +8,11 @@
 
 Units are SI in arrays; names of other units end in them: _mm, _rpm. World frame: LPS [m].
 """
-from burr._burr import (BUILD, ROWS_VERSION, Bone, Cancelled, Distance, Error, Event, Experiment, Hand, Mesh, Recording, Scene, Session,
+from burr._burr import (BUILD, ROWS_VERSION, Bone, Cancelled, Distance, Error, Event, Experiment, Hand, LawInput, Mesh, Recording, Scene, Session,
                         Snapshot, Tissue, Trial, __version__, cases, motions, phantoms, row_type, rubrics, tool_names)
 
-__all__ = ["BUILD", "ROWS_VERSION", "Bone", "Cancelled", "Distance", "Error", "Event", "Experiment", "Hand", "Mesh", "Recording",
-           "Scene", "Session", "Snapshot", "Tissue", "Trial", "__version__", "cases", "motions", "phantoms", "row_type", "rubrics",
+__all__ = ["BUILD", "ROWS_VERSION", "Bone", "Cancelled", "Distance", "Error", "Event", "Experiment", "Hand", "LawInput", "Mesh",
+           "Recording", "Scene", "Session", "Snapshot", "Tissue", "Trial", "__version__", "cases", "motions", "phantoms", "row_type", "rubrics",
            "tool_names"]
 
 # what the program does for a recording

@@ -56,6 +56,8 @@ class Work final : public Progress {
 
   void report(double fraction, std::string_view stage) override;
   [[nodiscard]] bool cancelled() const override;
+  // As if it had been cancelled, by nobody; any thread.
+  void stop() noexcept { stop_ = true; }
 
   // Does the work without the GIL; then raises what the user's function raised, or KeyboardInterrupt.
   template <class Do>

@@ -11,6 +11,7 @@
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/mesh_shape.h"
 #include "common.h"
+#include "law.h"
 #include "rows.h"
 
 namespace burr::python {
@@ -112,6 +113,7 @@ PYBIND11_MODULE(_burr, module) {
   module.def("tool_names", &tool_names, py::arg("tools") = "",
              "The tools of the rack; tools: a .toml file with more.");
   module.def("row_type", &row_type, "The type of the rows of ticks.");
+  add_law(module);
   add_bone(module);
   add_scene(module);
   add_recording(module);

@@ -10,8 +10,10 @@
 #include "burr/record/schema.h"
 #include "burr/scoring/score.h"
 #include "burr/sim/replay.h"
+#include "burr/sim/session_words.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/label_check.h"
+#include "burr/workshop/law_file.h"
 #include "burr/workshop/recording.h"
 #include "burr/workshop/spared.h"
 #include "common.h"
@@ -52,7 +54,7 @@ class Recording {
   py::dict removed_mm3(const py::object& call);
   py::dict process(const py::object& call);
   py::dict score(const std::string& rubric, const py::object& call);
-  py::dict replay(const py::object& call);
+  py::dict replay(const std::string& law, const std::string& settings, const py::object& call);
   [[nodiscard]] const record::Player& player() const { return *player_; }
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const std::string& volume() const { return given_.source; }
@@ -243,11 +245,15 @@ py::dict Recording::score(const std::string& name, const py::object& call) {
                   "items"_a = items);
 }
 
-py::dict Recording::replay(const py::object& call) {
+py::dict Recording::replay(const std::string& law, const std::string& settings,
+                           const py::object& call) {
   Use use(*this);
+  const auto own = law.empty() ? nullptr : take(workshop::LawFile::open(law, settings));
+  check(sim::check_law(use->info(), own.get(), use->path()));
   Work work(call);
   auto bone = volume::copy_of(first(*use, work));
-  const auto outcome = take(work.run([&] { return sim::replay(*use, std::move(bone), work); }));
+  const auto outcome =
+      take(work.run([&] { return sim::replay(*use, std::move(bone), work, nullptr, own.get()); }));
   return py::dict("ticks"_a = outcome.ticks, "bricks"_a = outcome.bricks, "gaps"_a = outcome.gaps,
                   "same"_a = !outcome.first_different_tick && outcome.gaps == 0,
                   "difference"_a = outcome.difference);
@@ -305,8 +311,8 @@ void add_recording(py::module_& module) {
                 "Measures of how the work was done (docs/metrics.md).");
   recording.def("score", &Recording::score, "rubric"_a = "", py::kw_only(),
                 "progress"_a = py::none(), "As `burr score`.");
-  recording.def("replay", &Recording::replay, py::kw_only(), "progress"_a = py::none(),
-                "Simulates it again and compares every tick and brick.");
+  recording.def("replay", &Recording::replay, py::kw_only(), "law"_a = "", "law_settings"_a = "",
+                "progress"_a = py::none(), "Simulates it again and compares every tick and brick.");
 }
 
 }  // namespace burr::python

@@ -53,6 +53,10 @@ const Field kFields[] = {
     BURR_FIELD("tool_number", "i4", 1, tool_number),
     BURR_FIELD("coolant", "?", 1, coolant),
     BURR_FIELD("mirrored", "?", 1, mirrored),
+    BURR_FIELD("law_state", "i8", 1, law_state),
+    BURR_FIELD("law_force_n", "f8", 3, law_force),
+    BURR_FIELD("law_energy_j", "f8", 1, law_energy),
+    BURR_FIELD("law_torque_nm", "f8", 1, law_torque),
     BURR_FIELD("took_us", "f4", 1, took),
     BURR_FIELD("late_us", "f4", 1, late),
     BURR_FIELD("hash", "u8", 1, hash),
@@ -104,6 +108,10 @@ Row row_of(const tick::TickRow& row) {
   out.tool_number = row.tool.number;
   out.coolant = row.tool.irrigated ? 1 : 0;
   out.mirrored = row.tool.mirror_axis >= 0 ? 1 : 0;
+  out.law_state = row.law.state;
+  put(row.law.force, out.law_force);
+  out.law_energy = row.law.energy;
+  out.law_torque = row.law.torque;
   out.took = row.took_us;
   out.late = row.late_us;
   out.hash = row.hash;

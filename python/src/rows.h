@@ -11,7 +11,7 @@
 
 namespace burr::python {
 
-inline constexpr int kRowsVersion = 1;
+inline constexpr int kRowsVersion = 2;
 
 struct Row;
 [[nodiscard]] py::dtype row_type();
@@ -27,6 +27,8 @@ struct Row {
   double asked, removed, debt, not_cut, added, energy, undone, moved;
   double spindle, cutting_torque, cutting_power;
   double tool_radius, tool_full_speed;
+  double law_force[3], law_energy, law_torque;
+  std::int64_t law_state;
   std::uint64_t hash;
   std::uint32_t buttons, flags;
   std::int32_t active, candidates, tool_number, tool_mode, tool_kind;

@@ -3,11 +3,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <mutex>
 #include <numbers>
+#include <thread>
 #include <utility>
 
 #include "burr/device/pushed_hand.h"
@@ -29,6 +32,7 @@
 #include "common.h"
 #include "events.h"
 #include "eye.h"
+#include "law.h"
 #include "rows.h"
 #include "scene.h"
 
@@ -294,6 +298,9 @@ class Session {
   // Tells a function of Python what happens; events.h.
   void on(Wanted wanted);
   [[nodiscard]] Events* events() const { return events_.get(); }
+  void observe(const py::object& what, double every_ms);
+  [[nodiscard]] const py::object& observer() const { return observer_; }
+  void forget_observer() { observer_ = py::none(); }
   std::uint64_t ticks();
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] double rate() const { return session_->settings().servo.rate_hz; }
@@ -306,6 +313,9 @@ class Session {
   void sort_voxels(sim::Session& session);
   void note();           // after each tick
   void look_at_steps();  // while the session stands
+  [[nodiscard]] std::uint64_t step_some(sim::Session& session, std::uint64_t ticks, Work& work);
+  [[nodiscard]] std::uint64_t step_observed(sim::Session& session, std::uint64_t ticks, Work& work);
+  void show_rows(sim::Session& session);
 
   BonePtr whole_;  // the bone before the first cut
   std::optional<scenario::Case> work_;
@@ -324,6 +334,11 @@ class Session {
   std::atomic<bool> busy_ = false;
   std::vector<sim::CrossedVoxel> out_, in_;
   tick::TickRow newest_;
+  std::shared_ptr<PythonLaw> law_;  // none: no law, or a compiled one
+  py::object observer_ = py::none();
+  std::uint64_t observe_every_ = 0, observe_next_ = 0;  // [ticks]
+  std::vector<tick::TickRow> seen_;                     // by the observer, not yet taken by rows()
+  std::atomic<std::thread::id> observing_;  // the thread on which the observer is called now
   double pedal_ = 0;
   std::uint32_t buttons_ = 0;
   std::uint64_t made_ = 0;  // ticks, at the end of the last step()
@@ -348,7 +363,9 @@ Session::Session(const Scene& scene, const Hand& hand, const std::string& record
   std::error_code nobody_asks;
   if (!record.empty() && !force && std::filesystem::exists(record, nobody_asks))
     raise(fmt::format("{} exists; give force=True to replace it", record));
-  const sim::SessionSettings settings = settings_of(scene);
+  sim::SessionSettings settings = settings_of(scene);
+  settings.law = own_law(scene.law, scene.law_settings);
+  law_ = std::dynamic_pointer_cast<PythonLaw>(settings.law);
   std::unique_ptr<device::Device> device;
   if (!hand.motion.empty() || !hand.path.points.empty()) {
     device::HandPath path = hand.path;
@@ -494,17 +511,80 @@ std::uint64_t Session::make_ticks(std::uint64_t ticks) {
   if (pushed_ != nullptr && !placed_)
     raise("nobody said where the hand is; call hand() before the first step()");
   Work work;
-  const std::uint64_t made = work.run([&] {
-    const std::uint64_t done = use->step(ticks, work);
-    if (events_) note();
-    return done;
-  });
+  if (law_) law_->set_work(&work);
+  const std::uint64_t made =
+      observer_.is_none() ? step_some(*use, ticks, work) : step_observed(*use, ticks, work);
   made_ = use->ticks();
+  if (law_) {
+    law_->set_work(nullptr);
+    law_->raise_again();
+  }
   {
     const std::lock_guard lock(trouble_mutex_);
     if (!trouble_.empty()) raise(std::exchange(trouble_, {}));
   }
   return made;
+}
+
+std::uint64_t Session::step_some(sim::Session& session, std::uint64_t ticks, Work& work) {
+  return work.run([&] {
+    const std::uint64_t made = session.step(ticks, work);
+    if (events_) note();
+    return made;
+  });
+}
+
+std::uint64_t Session::step_observed(sim::Session& session, std::uint64_t ticks, Work& work) {
+  std::uint64_t made = 0;
+  while (made < ticks) {
+    const std::uint64_t some = std::min(ticks - made, observe_next_ - session.ticks());
+    const std::uint64_t now = step_some(session, some, work);
+    made += now;
+    if (session.ticks() >= observe_next_) {
+      observe_next_ = session.ticks() + observe_every_;
+      show_rows(session);
+    }
+    if (now < some) break;
+  }
+  return made;
+}
+
+// Between two ticks. Wishes of the observer are taken by the next one.
+void Session::show_rows(sim::Session& session) {
+  std::vector<tick::TickRow> rows = session.log()->take_rows();
+  const py::array shown = rows_array(rows_of(rows), row_type_);
+  if (keeps_rows_)
+    seen_.insert(seen_.end(), std::make_move_iterator(rows.begin()),
+                 std::make_move_iterator(rows.end()));
+  struct Calls {
+    std::atomic<std::thread::id>& who;
+    ~Calls() { who = std::thread::id(); }
+  } calls{observing_};
+  observing_ = std::this_thread::get_id();
+  const py::object observer = observer_;  // it may stop observing
+  observer(shown);
+}
+
+void Session::observe(const py::object& what, double every_ms) {
+  Use use(*this, true);
+  if (!what.is_none() && PyCallable_Check(what.ptr()) == 0)
+    raise("observe() wants a function of the rows, or None");
+  const double ticks = std::round(1e-3 * every_ms * use->settings().servo.rate_hz);
+  if (!(ticks >= 1 && ticks < 1e9))
+    raise(fmt::format("every_ms {} is not possible; use a tick or more, for example 20", every_ms));
+  const auto keep = [&](std::vector<tick::TickRow>& into) {
+    if (use->log() == nullptr || !use->log()->keeps_rows()) return;
+    for (const tick::TickRow& row : use->log()->take_rows()) into.push_back(row);
+  };
+  if (keeps_rows_) {
+    keep(seen_);  // they are not news for the observer
+  } else {
+    if (keeps_voxels_) sort_voxels(*use);
+    use->keep_in_memory(!what.is_none(), keeps_voxels_);
+  }
+  observer_ = what;
+  observe_every_ = static_cast<std::uint64_t>(ticks);
+  observe_next_ = use->ticks() + observe_every_;
 }
 
 void Session::push(const py::object& p, const py::object& q, const py::object& pedal,
@@ -543,7 +623,9 @@ py::array Session::rows() {
   std::vector<Row> out;
   {
     const py::gil_scoped_release others_may;
-    out = rows_of(use->log()->take_rows());
+    std::vector<tick::TickRow> all = std::exchange(seen_, {});
+    for (const tick::TickRow& row : use->log()->take_rows()) all.push_back(row);
+    out = rows_of(all);
   }
   return rows_array(std::move(out), row_type_);
 }
@@ -592,6 +674,8 @@ void Session::reset_to(const Snapshot* snapshot) {
   if (events_) events_->start_over();
   out_.clear();
   in_.clear();
+  seen_.clear();
+  observe_next_ = observe_every_;
   newest_ = {};
   made_ = 0;
   placed_ = false;
@@ -616,7 +700,10 @@ py::dict Session::outcome() {
 
 void Session::command(tick::CommandKind kind, double value) {
   if (!std::isfinite(value)) raise("a setting must be a finite number");
-  Use(*this, true)->command({kind, value});
+  if (observing_.load() == std::this_thread::get_id())
+    session_->command({kind, value});  // from the observer, while step() waits for it
+  else
+    Use(*this, true)->command({kind, value});
 }
 
 double mode_named(const std::string& name) {
@@ -628,17 +715,23 @@ double mode_named(const std::string& name) {
 
 // Python's collector finds functions that hold the object which holds them.
 int visit_all(const Session& session, visitproc told, void* arg) {
+  if (const int stop = told(session.observer().ptr(), arg); stop != 0) return stop;
   return session.events() != nullptr ? session.events()->visit(told, arg) : 0;
 }
 int visit_all(const Scene& scene, visitproc told, void* arg) {
+  if (const int stop = told(scene.law.ptr(), arg); stop != 0) return stop;
   for (const Wanted& wanted : scene.wanted)
     if (const int stop = told(wanted.call.ptr(), arg); stop != 0) return stop;
   return 0;
 }
 void forget(Session& session) {
+  session.forget_observer();
   if (session.events() != nullptr) session.events()->forget();
 }
-void forget(Scene& scene) { scene.wanted.clear(); }
+void forget(Scene& scene) {
+  scene.law = py::none();
+  scene.wanted.clear();
+}
 
 template <class Type>
 Type* held_by(PyObject* self) {
@@ -775,6 +868,10 @@ void add_session(py::module_& module) {
         self.command(tick::CommandKind::burr_kind, diamond ? 1 : 0);
       },
       "diamond"_a);
+  session.def("observe", &Session::observe, "f"_a, py::kw_only(), "every_ms"_a = 20.0,
+              "Calls f(rows) between ticks, with the rows since the last call. f may use the "
+              "commands, undo() and "
+              "set_...(), and nothing else of the session. None: no longer.");
   session.def("close", &Session::close, "Finishes the recording; nothing can be stepped after it.");
   session.def("__enter__", [](const py::object& self) { return self; });
   session.def("__exit__", [](Session& self, const py::args&) { self.close(); });
@@ -838,6 +935,8 @@ void add_scene(py::module_& module) {
   scene.def_readwrite("irrigated", &Scene::irrigated);
   scene.def_readwrite("undo_bricks", &Scene::undo_bricks);
   scene.def_readwrite("threads", &Scene::threads);
+  scene.def_readwrite("law", &Scene::law);
+  scene.def_readwrite("law_settings", &Scene::law_settings);
   scene.def(
       "session",
       [](const Scene& self, const Hand* hand, const std::string& record, bool embed, bool force,

@@ -28,7 +28,9 @@ struct Scene {
   std::size_t undo_bricks = tick::ServoSettings{}.undo_bricks;
   std::string title, motion = "pocket";  // of the demonstration, as its seconds
   double seconds = 20;
-  std::vector<Wanted> wanted;  // by all its sessions
+  std::vector<Wanted> wanted;   // by all its sessions
+  py::object law = py::none();  // a compiled one's file, or a function
+  std::string law_settings;
 };
 
 // Opens the bone of a recipe; call: None, or f(fraction, stage).

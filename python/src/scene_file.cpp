@@ -56,6 +56,10 @@ double shortest(double value, const Use& use) {
 
 // bone: the file of the bone; empty: that of the scene.
 std::string text_of(const Scene& scene, const fs::path& folder, const std::string& bone) {
+  if (!scene.law.is_none())
+    raise(
+        "a case holds no law of your own; set scene.law to None, and set it again in the scene "
+        "that is made of the text");
   scenario::CaseFile file;
   if (scene.work) {
     file.name = scene.work->name;

@@ -34,7 +34,7 @@ class Examples(unittest.TestCase):
 
     def test_all_are_here(self):
         self.assertEqual({file.stem for file in EXAMPLES.glob("*.py")},
-                         {"load_and_cut", "dataset", "learn", "clone", "psychophysics", "score_study"})
+                         {"load_and_cut", "dataset", "learn", "clone", "psychophysics", "score_study", "own_law"})
 
     def test_load_and_cut(self):
         rows = script("load_and_cut")(out=self.folder)
@@ -52,6 +52,18 @@ class Examples(unittest.TestCase):
         with np.load(self.folder / "a" / "00001.npz") as data:
             self.assertEqual(len(data["rows"]), table[1]["ticks"])
             self.assertGreater(len(data["removed"]), 0)
+
+    def test_own_law(self):
+        built = pathlib.Path(os.environ["BURR_PROGRAM"]).parent / "laws" / "hardening.so"
+        table = script("own_law")(built)
+        plain, softer, harder = table["burr's own"], table["half as stiff"], table["compiled"]
+        self.assertAlmostEqual(plain[0], 1000, delta=20)  # the spring that is set, and damping on the way in
+        self.assertAlmostEqual(softer[0], 500, delta=1)
+        self.assertLess(softer[1], 1e-3)
+        self.assertGreater(harder[0], 1.5 * plain[0])
+        self.assertGreater(harder[1], 10 * max(plain[1], softer[1]))  # no straight line
+        self.assertLess(softer[2], plain[2])  # presses less, removes less
+        self.assertGreater(harder[2], plain[2])
 
     def test_a_policy_improves(self):
         first, last = script("learn")(12)

@@ -81,6 +81,10 @@ inline tick::TickRow any_tick(std::uint64_t tick, Random& random) {
   row.piece.state = static_cast<int>(2 + random() % 100);
   row.piece.p = any_vec3(random);
   row.piece.turn = {any(random), any(random), any(random), any(random)};
+  row.law.state = static_cast<std::int64_t>(2 + random() % 100);
+  row.law.force = any_vec3(random);
+  row.law.energy = any(random);
+  row.law.torque = any(random);
   row.spindle_rad_s = any(random);
   row.cutting_nm = any(random);
   row.cutting_w = any(random);

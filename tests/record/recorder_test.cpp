@@ -150,6 +150,7 @@ TEST(Recorder, EveryFieldOfATickHasAColumn) {
   fields += sizeof(haptics::Contact);   // 3 byte after `touching`
   fields += sizeof(tool::ToolState);    // 3 byte after `irrigated`
   fields += sizeof(tick::PieceRow);     // 4 byte after `state`
+  fields += sizeof(tick::LawRow);
   EXPECT_EQ(fields, sizeof(tick::TickRow))
       << "a new field in TickRow: add its column in schema.cpp";
   EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3 - 3 - 4)

@@ -12,9 +12,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "batch/sha256.h"
 #include "burr/base/printable.h"
 #include "burr/scenario/case.h"
+#include "burr/workshop/sha256.h"
 
 namespace burr::app {
 namespace {
@@ -161,7 +161,7 @@ nlohmann::json Manifest::inputs(const ManifestRow& row) const {
 Result<Manifest> parse_manifest(std::string_view text, const std::string& file) {
   Manifest manifest;
   manifest.file = base::printable(file);
-  manifest.hash = sha256(text);
+  manifest.hash = workshop::sha256(text);
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // as spreadsheets write it
   const std::string_view first = text.substr(0, text.find_first_of("\r\n"));
   if (first != kManifestHead)

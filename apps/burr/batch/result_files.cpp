@@ -14,11 +14,11 @@
 #include <utility>
 
 #include "batch/canonical.h"
-#include "batch/sha256.h"
 #include "burr/base/new_file.h"
 #include "burr/base/printable.h"
 #include "burr/base/version.h"
 #include "burr/scenario/case.h"
+#include "burr/workshop/sha256.h"
 
 namespace burr::app {
 namespace {
@@ -57,7 +57,7 @@ nlohmann::json this_engine() {
   dl_iterate_phdr(add_build_id, &ids);
   return {{"version", base::version()},
           {"compiler", base::build()},
-          {"build", ids.empty() ? "unknown" : sha256(ids).substr(0, 16)}};
+          {"build", ids.empty() ? "unknown" : workshop::sha256(ids).substr(0, 16)}};
 }
 
 fs::path ResultFiles::place(const char* kind, const std::string& id, const char* ending) const {

@@ -41,6 +41,8 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"replay", "s.mcap --at 12.5 --effects --picture p.png", "one moment"},
     {"verify", "--quick", "within a minute"},
     {"verify", "heat friction --out v", "two parts, with a report"},
+    {"verify law", "hardening.so --law-settings hardening.txt", "before a session in real time"},
+    {"verify law", "my_law.so --out v", "with a report"},
     {"psychophysics", "stiffness --observer threshold=0.12,feels=yes --out p",
      "a simulated person"},
     {"psychophysics", "friction --device touch --subject p07 --out p07", "a person"},

@@ -36,6 +36,7 @@
 #include "commands/command.h"
 #include "commands/interrupt.h"
 #include "commands/json_line.h"
+#include "commands/law_options.h"
 #include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/piece_words.h"
@@ -57,6 +58,7 @@ struct Options {
                                                       removal = "energy", mirror;
   ToolOptions tool;
   SecondOptions second;
+  LawChoice law;
   std::string carry_piece;
   std::vector<double> at_mm, into;
   std::vector<std::string> move_pieces;
@@ -481,6 +483,16 @@ void set_servo(const Options& options, tick::ServoSettings& servo) {
   servo.irrigated = options.irrigated;
 }
 
+Status set_session(const Options& options, sim::SessionSettings& settings) {
+  settings.realtime = options.realtime;
+  if (const Status taken = take_tool(options.tool, settings.servo); !taken) return taken;
+  set_servo(options, settings.servo);
+  auto law = own_law(options.law, options.realtime);
+  if (!law) return law.error();
+  settings.law = std::move(*law);
+  return fine();
+}
+
 device::ArmSettings arm_of(std::string_view grip) {
   device::ArmSettings arm;
   if (grip == "rigid") arm.stiffness = INFINITY;
@@ -531,9 +543,7 @@ Status run(Options options, Account* given) {
   if (!orders.empty() || carry) rest_at_end(*path);
 
   sim::SessionSettings settings;
-  settings.realtime = options.realtime;
-  if (const Status taken = take_tool(options.tool, settings.servo); !taken) return taken;
-  set_servo(options, settings.servo);
+  if (const Status set = set_session(options, settings); !set) return set;
   if (options.heat) {
     auto warming = heat_settings(options, opened->bone->tissues());
     if (!warming) return warming.error();
@@ -608,6 +618,7 @@ void add_results(CLI::App* command, const std::shared_ptr<Options>& options) {
   command->add_flag("--embed", options->embed, "with --record: store the bone in the file");
   command->add_option("--picture", options->picture, "F.png: picture of the bone afterwards");
   add_force(*command, options->force);
+  add_law_options(*command, options->law);
   command
       ->add_option("--undo-bricks", options->undo_bricks, "memory for undo: bricks of 8^3 voxels")
       ->capture_default_str();

@@ -37,6 +37,7 @@
 #include "commands/film_file.h"
 #include "commands/interrupt.h"
 #include "commands/json_line.h"
+#include "commands/law_options.h"
 #include "commands/outputs.h"
 #include "commands/picture_size.h"
 #include "commands/views.h"
@@ -58,6 +59,7 @@ struct Options {
   ViewOptions view;
   scenario::Recipe volume;
   PictureSize size;
+  LawChoice law;
   double at = -1, fps = 25;
   double from = -1, until = -1;  // of the film; below 0: start, end
   bool effects = false;
@@ -350,9 +352,12 @@ Status run(const Options& options) {
           Trouble::usage,
           fmt::format("{}: was made with a table of materials; give that table with --materials",
                       options.file));
+    auto law = own_law(options.law, false);
+    if (!law) return law.error();
+    if (const Status same = sim::check_law(info, law->get(), options.file); !same) return same;
     auto bone = workshop::bone_of(player, options.volume, progress());
     if (!bone) return bone.error();
-    auto outcome = sim::replay(player, std::move(*bone), progress());
+    auto outcome = sim::replay(player, std::move(*bone), progress(), nullptr, law->get());
     if (!outcome) return outcome.error();
     out["checked_ticks"] = outcome->ticks;
     out["checked_bricks"] = outcome->bricks;
@@ -390,8 +395,9 @@ void add(CLI::App& app, Todo& todo) {
                                      "open a recording: figures, pictures, film, sound, or a check "
                                      "that replay gives the same bits");
   command->add_option("recording", options->file, "F.mcap")->required();
-  command->add_flag("--check", options->check,
-                    "simulate it again and compare every tick and brick");
+  auto* check = command->add_flag("--check", options->check,
+                                  "simulate it again and compare every tick and brick");
+  add_law_options(*command, options->law)->needs(check);
   command->add_option("--picture", options->picture,
                       "F.png: picture of the bone and the burr (see --at)");
   command->add_option("--film", options->film,

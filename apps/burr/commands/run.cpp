@@ -38,6 +38,7 @@
 #include "commands/hand_options.h"
 #include "commands/identity_options.h"
 #include "commands/interrupt.h"
+#include "commands/law_options.h"
 #include "commands/outputs.h"
 #include "commands/recording.h"
 #include "commands/summary.h"
@@ -409,6 +410,8 @@ Status run(Options options) {
       check_outputs({options.work.volume.source}, {{"--screenshot", options.screenshot, {".png"}}});
   if (!possible) return possible;
   const bool windowless = options.headless || !display_there();
+  // before the window opens
+  if (const auto law = own_law(options.work.law, !windowless); !law) return law.error();
   Told told;
   if (!windowless) return launched(options, told, [&] { return run_in_window(options, told); });
   for (const auto& [option, given] : {std::pair{"--device", &options.work.hand.device},
@@ -459,6 +462,7 @@ void add(CLI::App& app, Todo& todo) {
       "shaft: the burr's shaft touches the bone too (default: constraint, the head alone; with "
       "--second-tool shaft)");
   touch->check(CLI::IsMember({"constraint", "shaft"}));
+  add_law_options(*command, options->work.law);
   command->add_flag("--no-sound", options->no_sound, "the window makes no sound");
   command->add_flag("--xr", options->xr, "use a headset through OpenXR")->excludes("--headless");
   command->add_option("--rpm", options->work.rpm,

@@ -108,6 +108,9 @@ Result<sim::SessionSettings> settings_of(const WorkOptions& options, bool realti
   if (options.touch != haptics::Method::constraint) settings.servo.touch = options.touch;
   if (const Status taken = take_tool(options.tool, settings.servo); !taken) return taken.error();
   settings.realtime = realtime;
+  auto law = own_law(options.law, realtime);
+  if (!law) return law.error();
+  settings.law = std::move(*law);
   return settings;
 }
 

@@ -17,6 +17,7 @@
 #include "burr/sim/session.h"
 #include "burr/workshop/hand_device.h"
 #include "burr/workshop/prepare.h"
+#include "commands/law_choice.h"
 #include "commands/tool_options.h"
 
 namespace burr::app {
@@ -36,6 +37,7 @@ struct WorkOptions {
   std::string suction;          // in the window: a device for the other hand; empty: none
   std::string told_as;          // in the window: name of the published CRTK arm; empty: none
   ToolOptions tool;             // of the rack
+  LawChoice law;                // of one's own, for each session anew
   std::uint32_t bone = 0;       // another bone of the case (workshop/other_bone.h); 0: its own
   bool other_bones = false;     // each session draws the number, where the case has other bones
   haptics::Method touch = haptics::Method::constraint;
@@ -71,7 +73,7 @@ void take_case(WorkOptions& options, const scenario::Case& work);
 [[nodiscard]] Result<workshop::Prepared> open_work(WorkOptions& options, Progress& progress,
                                                    const io::Scan* scan = nullptr);
 
-// Error: as take_tool().
+// Error: as take_tool(), and a law that cannot be opened, or is not fit for real time.
 [[nodiscard]] Result<sim::SessionSettings> settings_of(const WorkOptions& options, bool realtime);
 
 }  // namespace burr::app

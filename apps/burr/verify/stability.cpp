@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "burr/device/simulated_hand.h"
-#include "burr/phantom/build.h"
-#include "burr/sim/session.h"
+#include "pressing.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -125,75 +123,6 @@ void devices(VerifyReport::Part& part) {
                           kept.ran_away ? "runs away" : fmt::format("{:.3f}", 1e3 * kept.late)});
   }
   part.table(std::move(table));
-}
-
-// Whole sessions: a hand presses and waits. The energy that it gave is summed as -F dx, with the
-// force that was held during each tick.
-struct Pressing {
-  const char* name;
-  phantom::Depth bone;
-  double radius = 2e-3;
-  tick::ToolMode mode = tick::ToolMode::touch;
-  double stiffness = 1000;
-  device::ArmSettings arm = {.mass = 0.06, .damping = 5, .stiffness = 200};
-  bool guarded = false;
-  double drag = 1;
-};
-struct Lasting {
-  double least = 0, energy = 0;  // lowest value during the run, and value at its end [J]
-  double ripple = 0;  // standard deviation of the force in the last second, over its mean
-  double force = 0;   // mean of the force in the last second [N]
-  bool ok = false;
-};
-Lasting last(const Pressing& one, double seconds) {
-  using math::Vec3;
-  constexpr double kMm = 1e-3;
-  device::HandPath path;
-  for (const auto& [t, z] : {std::pair{0.0, 2 * kMm}, std::pair{0.7, 2 * kMm},
-                             std::pair{1.2, -3 * kMm}, std::pair{seconds, -3 * kMm}}) {
-    device::PathPoint point;
-    point.t = t;
-    point.world_from_tool.q = Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY());
-    point.world_from_tool.p = {0, 0, 1.5 * one.radius + z};
-    path.points.push_back(point);
-  }
-  sim::SessionSettings settings;
-  settings.servo.burr.radius = one.radius;
-  settings.servo.mode = one.mode;
-  settings.servo.force.stiffness = one.stiffness;
-  settings.servo.guarded = one.guarded;
-  settings.servo.drag_gain = one.drag;
-  device::DeviceSpec strong;
-  strong.max_stiffness = 1e5;
-  NoProgress quiet;
-  auto made = sim::Session::make(
-      phantom::bone_from_distance(
-          phantom::box_grid(Vec3::Constant(-9 * kMm), Vec3::Constant(9 * kMm), 0.25 * kMm), {},
-          one.bone, 4096),
-      std::make_unique<device::SimulatedHand>(path, one.arm, strong), settings, quiet);
-  Lasting out;
-  if (!made) return out;
-  const int ticks = static_cast<int>(1000 * (seconds - 0.1));
-  Vec3 held = Vec3::Zero(), at = Vec3::Zero();
-  double sum = 0, squares = 0;
-  for (int n = 0; n < ticks; ++n) {
-    const tick::TickRow& row = (*made)->servo().tick(false);
-    (*made)->servo().publish();
-    const Vec3 now = row.hand.world_from_tool.p;
-    if (n > 0) out.energy -= held.dot(now - at);
-    out.least = std::min(out.least, out.energy);
-    at = now;
-    held = row.contact.force;
-    if (n < ticks - 1000) continue;
-    const double force = held.norm();
-    sum += force;
-    squares += force * force;
-  }
-  out.force = sum / 1000;
-  out.ripple =
-      std::sqrt(std::max(0.0, squares / 1000 - out.force * out.force)) / std::max(out.force, 1e-9);
-  out.ok = true;
-  return out;
 }
 
 void lasting(const Verify& verify, VerifyReport::Part& part) {

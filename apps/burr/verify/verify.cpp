@@ -19,6 +19,7 @@
 #include "batch/row_command.h"
 #include "commands/command.h"
 #include "commands/interrupt.h"
+#include "law.h"
 #include "page.h"
 
 namespace burr::app {
@@ -95,7 +96,8 @@ Status run(const Options& options, Account* given) {
 }
 
 // chosen: gets the options when they were parsed.
-void add_verify(CLI::App& app, const std::function<void(std::shared_ptr<const Options>)>& chosen) {
+CLI::App* add_verify(CLI::App& app,
+                     const std::function<void(std::shared_ptr<const Options>)>& chosen) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("verify", "check touch and cutting against known results");
   std::vector<std::string> names;
@@ -116,12 +118,16 @@ void add_verify(CLI::App& app, const std::function<void(std::shared_ptr<const Op
       "--out", options->out,
       "DIR: write report.html, every series as CSV, verify.json and validation.md there");
   command->add_flag("--json", options->json, "one JSON object on the last line");
-  command->callback([options, chosen] { chosen(options); });
+  command->callback([options, chosen, command] {
+    if (command->get_subcommands().empty()) chosen(options);
+  });
+  return command;
 }
 
 void add(CLI::App& app, Todo& todo) {
-  add_verify(app,
-             [&todo](auto options) { todo.work = [options] { return run(*options, nullptr); }; });
+  auto* command = add_verify(
+      app, [&todo](auto options) { todo.work = [options] { return run(*options, nullptr); }; });
+  add_verify_law(*command, todo);
 }
 
 void add_row(CLI::App& app, RowTodo& todo) {

@@ -85,12 +85,13 @@ bool each_field(ByteSpan message, Found&& found) {
 
 // ---- columns
 
-enum class Type : std::uint8_t { f64, f32, u64, u32, i32, flag, number, bytes };
+enum class Type : std::uint8_t { f64, f32, u64, u32, i64, i32, flag, number, bytes };
 
 std::size_t width(Type type) {
   switch (type) {
     case Type::f64:
     case Type::u64:
+    case Type::i64:
       return 8;
     case Type::f32:
     case Type::u32:
@@ -112,6 +113,8 @@ std::uint64_t proto_type(Type type) {
       return 6;  // fixed64
     case Type::u32:
       return 7;  // fixed32
+    case Type::i64:
+      return 16;  // sfixed64
     case Type::i32:
       return 15;  // sfixed32
     case Type::flag:
@@ -242,6 +245,30 @@ const TickColumn kTickColumns[] = {
     {{76, "piece_qy", Type::f64, "[1]"}, BURR_AT(piece.turn[1]), false, true},
     {{77, "piece_qz", Type::f64, "[1]"}, BURR_AT(piece.turn[2]), false, true},
     {{78, "piece_qw", Type::f64, "[1]"}, BURR_AT(piece.turn[3]), false, true},
+    // a law of one's own
+    {{79, "law_state", Type::i64,
+      "a law of one's own: 1 it acts, 2 it is off because it gave what cannot be; absent: 0, none, "
+      "or it "
+      "was not asked"},
+     BURR_AT(law.state),
+     false,
+     true},
+    {{80, "law_force_x_n", Type::f64,
+      "its force on the hand, before guard and limits, world LPS; absent: 0 [N]"},
+     BURR_AT(law.force.x()),
+     false,
+     true},
+    {{81, "law_force_y_n", Type::f64, "[N]"}, BURR_AT(law.force.y()), false, true},
+    {{82, "law_force_z_n", Type::f64, "[N]"}, BURR_AT(law.force.z()), false, true},
+    {{83, "law_energy_j", Type::f64,
+      "what it pays for cutting in this tick; below 0: burr's law decides; absent: 0 [J]"},
+     BURR_AT(law.energy),
+     false,
+     true},
+    {{84, "law_torque_nm", Type::f64, "torque of the bone on the burr, by it; absent: 0 [N m]"},
+     BURR_AT(law.torque),
+     false,
+     true},
     {{35, "spindle_rad_per_s", Type::f64, "speed of the burr now [rad/s]"}, BURR_AT(spindle_rad_s)},
     {{39, "cutting_torque_nm", Type::f64, "torque of the bone on the burr [N m]"},
      BURR_AT(cutting_nm)},

@@ -15,6 +15,13 @@ namespace {
 
 // The first thing that differs between two rows of the same tick.
 std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
+  if (was.law.force != is.law.force || was.law.energy != is.law.energy ||
+      was.law.torque != is.law.torque || was.law.state != is.law.state)
+    return fmt::format(
+        "another answer of the own law: ({:.6g}, {:.6g}, {:.6g}) N instead of ({:.6g}, {:.6g}, "
+        "{:.6g}) N",
+        is.law.force.x(), is.law.force.y(), is.law.force.z(), was.law.force.x(), was.law.force.y(),
+        was.law.force.z());
   if (was.contact.force != is.contact.force)
     return fmt::format("force ({:.6g}, {:.6g}, {:.6g}) N instead of ({:.6g}, {:.6g}, {:.6g}) N",
                        is.contact.force.x(), is.contact.force.y(), is.contact.force.z(),
@@ -79,9 +86,17 @@ struct OtherHand {
 }  // namespace
 
 Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bone> bone,
-                             Progress& progress, RowLog* log) {
+                             Progress& progress, RowLog* log, tick::OwnLaw* law) {
   auto recorded = settings_of(player.info(), player.path());
   if (!recorded) return recorded.error();
+  if (const Status same = check_law(player.info(), law, player.path()); !same) return same.error();
+  tick::RecordedLaw answers;
+  recorded->settings.servo.law = law;
+  if (law != nullptr) {
+    if (const Status begun = law->begin(); !begun) return begun.error();
+  } else if (!law_of(player.info()).kind.empty()) {
+    recorded->settings.servo.law = &answers;
+  }
   volume::IsoVertices surface(*bone, recorded->settings.surface, 2, progress);
   device::ReplayedHand hand(recorded->device);
   tick::Servo servo(*bone, surface, hand, recorded->settings.servo);
@@ -119,6 +134,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
     }
     hand.set(step.row.hand);
     if (*other) (*other)->device.set(step.second->hand);
+    answers.set(step.row.law);
     const tick::TickRow& row = servo.tick((step.row.contact.flags & rt::kFlagWatchdog) != 0);
     servo.publish();
     if (log != nullptr) log->note(row);

@@ -30,11 +30,13 @@ struct ReplayOutcome {
   edit::PieceStore pieces;                            // that were moved
 };
 
-// bone: as at the start of the session. Error: the recording's settings cannot be understood, or
+// bone: as at the start of the session. law: the compiled one of the session; the answers of a function of
+// Python are in the recording. Error: the recording's settings cannot be understood, it needs another law, or
 // progress was cancelled.
 // log: of this bone; gets the rows and the voxels of each tick. nullptr: nobody wants them.
 [[nodiscard]] Result<ReplayOutcome> replay(record::Player& player,
                                            std::unique_ptr<volume::Bone> bone, Progress& progress,
-                                           RowLog* log = nullptr);
+                                           RowLog* log = nullptr,
+                                           tick::OwnLaw* law = nullptr);
 
 }  // namespace burr::sim

@@ -86,6 +86,11 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   if (!(std::abs(servo.spindle_rad_s) < 1e5))
     return error(Trouble::usage, "--rpm is out of range; use -400000 to 400000");
 
+  if (settings.law) {
+    if (settings.realtime)
+      if (Status may = settings.law->fit_for_real_time(); !may) return may.error();
+    if (Status begun = settings.law->begin(); !begun) return begun.error();
+  }
   Status opened = device->open();
   if (!opened) return opened.error();
   std::unique_ptr<Session> session(new Session(std::move(bone), std::move(device), settings));
@@ -93,6 +98,7 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   tick::ServoSettings capped = servo;
   capped.force.stiffness = tick::coupling_of(spec, servo).stiffness;
   capped.force.damping = std::min(servo.force.damping, spec.max_damping);
+  capped.law = settings.law.get();
   session->settings_.servo = capped;
   session->surface_ = std::make_unique<volume::IsoVertices>(*session->bone_, settings.surface,
                                                             settings.threads, progress);
@@ -303,6 +309,8 @@ Status Session::reset_to(const edit::BoneState& state) {
   if (why != nullptr)
     return error(Trouble::usage,
                  fmt::format("this session {}, so it cannot start over; make another one", why));
+  if (settings_.law)
+    if (Status begun = settings_.law->begin(); !begun) return begun;
   memory_.note(servo_->undo_store());
   memory_.put_back(state, servo_->writer());
   surface_->refresh_all();

@@ -33,6 +33,7 @@
 #include "burr/thermal/settings.h"
 #include "burr/thermal/summary.h"
 #include "burr/thermal/worker.h"
+#include "burr/tick/own_law.h"
 #include "burr/tick/second_hand.h"
 #include "burr/tick/servo.h"
 #include "burr/tick/shed.h"
@@ -54,6 +55,9 @@ struct SessionSettings {
                             // possible
   int threads = 2;          // for preparing the surface
   std::optional<HeatRequest> heat;
+  // In place of burr's force law (servo.law is set from it). In real time only one that may be there. nullptr:
+  // none. One session alone uses it.
+  std::shared_ptr<tick::OwnLaw> law;
 };
 
 // Results so far.

@@ -8,6 +8,8 @@
 namespace burr::sim {
 namespace {
 
+constexpr std::size_t kHashDigits = 64;
+
 // One setting: its name in the file, how to reach it, and its possible range (wider than that of
 // the options, because a file may contain anything).
 struct Entry {
@@ -122,6 +124,60 @@ void describe(const SessionSettings& settings, const device::DeviceSpec& device,
   info.rate_hz = settings.servo.rate_hz;
   info.words["device"] = device.name;
   info.tools = settings.servo.tools;
+  if (settings.law) describe(settings.law->about(), info);
+}
+
+void describe(const tick::LawAbout& law, record::SessionInfo& info) {
+  for (const auto& [name, text] : {std::pair{"law", law.kind},
+                                   {"law_name", law.name},
+                                   {"law_sha256", law.sha256},
+                                   {"law_settings_sha256", law.settings_sha256}})
+    if (!text.empty()) info.words[name] = text;
+}
+
+tick::LawAbout law_of(const record::SessionInfo& info) {
+  const auto word = [&info](const char* name) {
+    const auto found = info.words.find(name);
+    return found == info.words.end() ? std::string() : found->second;
+  };
+  return {word("law"), word("law_name"), word("law_sha256"), word("law_settings_sha256")};
+}
+
+Status check_law(const record::SessionInfo& info, const tick::OwnLaw* given,
+                 const std::string& where) {
+  const tick::LawAbout was = law_of(info),
+                       is = given != nullptr ? given->about() : tick::LawAbout();
+  const std::string name = base::printable(was.name);
+  if (was.kind != "compiled") {
+    if (given == nullptr) return fine();
+    return error(
+        Trouble::usage,
+        was.kind.empty()
+            ? fmt::format("{}: was made without a law of one's own; leave out --law", where)
+            : fmt::format("{}: its law was a function of Python, whose answers are in the "
+                          "recording; leave out --law",
+                          where));
+  }
+  if (given == nullptr)
+    return error(Trouble::usage,
+                 fmt::format("{}: was made with the law {} (SHA-256 {}); give that file with --law",
+                             where, name, base::printable(was.sha256, kHashDigits)));
+  if (is.sha256 != was.sha256)
+    return error(
+        Trouble::usage,
+        fmt::format("{}: was made with another law: the SHA-256 of {} was {}, that of --law "
+                    "{} is {}; give the file that it was made with",
+                    where, name, base::printable(was.sha256, kHashDigits), base::printable(is.name),
+                    is.sha256));
+  if (is.settings_sha256 != was.settings_sha256)
+    return error(
+        Trouble::usage,
+        was.settings_sha256.empty()
+            ? fmt::format("{}: its law {} had no settings; leave out --law-settings", where, name)
+            : fmt::format("{}: its law {} had other settings (SHA-256 {}); give their file with "
+                          "--law-settings",
+                          where, name, base::printable(was.settings_sha256, kHashDigits)));
+  return fine();
 }
 
 Result<Recorded> settings_of(const record::SessionInfo& info, const std::string& where) {

@@ -13,6 +13,14 @@ namespace burr::sim {
 void describe(const SessionSettings& settings, const device::DeviceSpec& device,
               record::SessionInfo& info);
 
+// The law of one's own; none: nothing is written, and its kind is empty.
+void describe(const tick::LawAbout& law, record::SessionInfo& info);
+[[nodiscard]] tick::LawAbout law_of(const record::SessionInfo& info);
+// May this law be asked again in a replay of the recording? nullptr: none is there. Error: the recording was
+// made with another one, or needs one.
+[[nodiscard]] Status check_law(const record::SessionInfo& info, const tick::OwnLaw* given,
+                               const std::string& where);
+
 struct Recorded {
   SessionSettings settings;
   device::DeviceSpec device;

@@ -160,6 +160,18 @@ edit::Cutting Cutting::by_law(const Press& press, double speed) BURR_RT {
       dt_, settings_.removal);
 }
 
+// What a law of one's own pays for, no more than the motor can give. Where less of its force reached the
+// hand, it cuts less in proportion.
+edit::Cutting Cutting::by_own_law(const Press& press) const BURR_RT {
+  const double wanted = math::dot(law_->force, press.normal);
+  const double share = wanted > press.push ? press.push / wanted : 1;
+  edit::Cutting cutting;
+  cutting.energy = std::min(share * law_->energy, settings_.removal.max_power * dt_);
+  cutting.power = cutting.energy / dt_;
+  cutting.torque = share * law_->torque;
+  return cutting;
+}
+
 // Is the bone worked on in this tick? If not, the debt and the open stroke run out.
 // may: not while bone is put back, whose stroke is not ours.
 bool Cutting::works(double push, bool may) BURR_RT {
@@ -214,7 +226,12 @@ void Cutting::cut_tool(std::uint64_t tick, const Vec3& touched, bool may, std::u
   cut.dt = dt_;
   cut.slices = slices_of(controls_.shed);
   cut.mirror = controls_.mirror;
-  if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
+  const bool pays = law_ != nullptr && law_->state == LawRow::kActs && law_->energy >= 0;
+  if (settings_.mode == ToolMode::cut && pays) {
+    now_ = by_own_law({now.normal, push});
+    cut.energy = now_.energy;
+    carver_.carve(cut, flags);
+  } else if (settings_.mode == ToolMode::cut && settings_.removal.law == edit::RemovalLaw::thesis) {
     const auto frame =
         static_cast<std::uint64_t>(std::max(1, settings_.removal.thesis_frame_ticks));
     if (tick % frame == 0)

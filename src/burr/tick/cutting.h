@@ -21,6 +21,7 @@
 #include "burr/rt/rt.h"
 #include "burr/thermal/rows.h"
 #include "burr/tick/hand.h"
+#include "burr/tick/rows.h"
 #include "burr/tick/settings.h"
 #include "burr/tool/shaped_tool.h"
 #include "burr/tool/spindle.h"
@@ -36,6 +37,9 @@ class Cutting {
   // The other hand's, if it cuts too: a stroke is over when neither has touched for a while. Before
   // the session.
   void set_beside(const Cutting* other) { beside_ = other; }
+
+  // Of a law of one's own, in each tick before cut(); it may pay for the cut. Before the session.
+  void set_law(const LawRow* law) { law_ = law; }
 
   [[nodiscard]] tool::Spindle& spindle() BURR_RT { return spindle_; }
   [[nodiscard]] const tool::Spindle& spindle() const BURR_RT { return spindle_; }
@@ -90,6 +94,7 @@ class Cutting {
   };
   [[nodiscard]] Press press(const math::Vec3& touched) const BURR_RT;
   [[nodiscard]] edit::Cutting by_law(const Press& press, double speed) BURR_RT;
+  [[nodiscard]] edit::Cutting by_own_law(const Press& press) const BURR_RT;
   // ---- a tool of any shape (shaped_cutting.cpp)
   [[nodiscard]] const tool::ShapedTool* shaped() const BURR_RT;
   [[nodiscard]] edit::Stroke stroke_now() const BURR_RT;
@@ -111,6 +116,7 @@ class Cutting {
   const ServoSettings& settings_;  // of the controls
   const Hand& hand_;
   const Cutting* beside_ = nullptr;
+  const LawRow* law_ = nullptr;
   double dt_;
   edit::Carver carver_;
   edit::Brush brush_;

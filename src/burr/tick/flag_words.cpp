@@ -39,6 +39,9 @@ constexpr std::pair<std::uint32_t, const char*> kWords[] = {
     {rt::kFlagStalled,
      "the bone stopped the spindle; press less, or raise the motor's torque (--torque-mnm)"},
     {rt::kFlagShaft, "the shaft, or another part of the tool that does not cut, was on bone"},
+    {rt::kFlagLaw,
+     "the law of your own gave a number that cannot be, or could not answer: it was switched off, "
+     "and the burr had no force from then on; try it with `burr verify law`"},
     {rt::kFlagNotCut, "the burr was blocked and part of the requested volume was not cut"},
 };
 

@@ -27,6 +27,15 @@ struct PieceRow {
   std::array<double, 4> turn = {0, 0, 0, 0};  // from where it came free: unit quaternion x, y, z, w
 };
 
+// What a law of one's own answered (tick/own_law.h). Zero where there is none, or it was not asked.
+struct LawRow {
+  static constexpr std::int64_t kNone = 0, kActs = 1, kOff = 2;  // off: it gave what cannot be
+  std::int64_t state = kNone;
+  math::Vec3 force = math::Vec3::Zero();  // before guard and limits                      [N]
+  double energy = 0;                      // to spend on cutting; below 0: as burr        [J]
+  double torque = 0;                      // of the bone on the burr                      [N m]
+};
+
 // One per tick: the inputs, the outcome, and a hash of both and of the ledger.
 struct TickRow {
   std::uint64_t tick = 0;    // 0, 1, 2 ... of the session; time is tick / rate
@@ -37,6 +46,7 @@ struct TickRow {
   double cutting_nm = 0;     // torque of the bone on the burr        [N m]
   double cutting_w = 0;      // power that goes into the bone         [W]
   PieceRow piece;            // after this tick
+  LawRow law;                // in this tick
   tool::ToolState tool;      // in the hand, after this tick's commands; not part of the hash
   float took_us = 0;         // work of this tick, thread CPU time; not part of the hash
   float late_us = 0;         // after its due time; not part of the hash

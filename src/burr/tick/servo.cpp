@@ -46,6 +46,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       touch_by_(surface, proxy_settings(settings), settings.touch, &controls_.settings.tools,
                 settings.tool, std::move(known.mesher)),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),
+      law_(bone, controls_, hand_),
       cutting_(bone, undo_, writer_, controls_, hand_),
       piece_(surface, proxy_settings(settings), haptics::ShaftTouch::kLever,
              device.spec().sensed >= kOrientation, settings.rate_hz),
@@ -53,6 +54,7 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
       outbox_(bone, changed_, controls_),
       orders_(bone.grid(), {controls_, hand_, touch_by_, cutting_, restore_, piece_, outbox_}) {
   hand_.use(touch_by_.now(), touch_by_.tool());
+  if (settings.law != nullptr) cutting_.set_law(&law_.row());
   if (!hand_.turned()) return;
   const double lever = coupling_of(hand_.spec(), controls_.settings).lever;
   touch_by_.couple(lever);
@@ -92,7 +94,10 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   piece_.rest(usable ? hand_.state().world_from_tool.p : piece_.position());
 
   // force, bounded, to the hand
-  const Vec3 guarded = hand_.limit_energy(hand_.wanted(), lost || !usable, flags);
+  const Vec3 wanted = law_.wanted(feels && !piece_.lifted(), cutting_.spindle().speed());
+  if (law_.failed_now()) hand_.release(rt::kFlagLaw, flags);
+  if (law_.off()) flags |= rt::kFlagLaw;
+  const Vec3 guarded = hand_.limit_energy(wanted, lost || !usable, flags);
   Hand::Beside beside;
   beside.force = cutting_.drag(guarded) + cutting_.vibration();
   if (usable) beside.twist = cutting_.torque();
@@ -208,6 +213,7 @@ void Servo::finish_row(const Hand::Sent& sent) BURR_RT {
   if (controls_.shed >= Shed::removal_2) flags |= rt::kFlagPutOff;
   if (cutting_.spindle().stalled()) flags |= rt::kFlagStalled;
   row_.piece = piece_.row();
+  row_.law = law_.row();
   row_.ledger = writer_.ledger();
   row_.spindle_rad_s = cutting_.spindle().speed();
   row_.cutting_nm = cutting_.now().torque;

@@ -32,6 +32,7 @@
 #include "burr/tick/fault_report.h"
 #include "burr/tick/hand.h"
 #include "burr/tick/held_piece.h"
+#include "burr/tick/law_call.h"
 #include "burr/tick/orders.h"
 #include "burr/tick/outbox.h"
 #include "burr/tick/restore.h"
@@ -148,6 +149,7 @@ class Servo {
   edit::BoneWriter writer_;
   TouchMethods touch_by_;
   Hand hand_;
+  LawCall law_;
   Cutting cutting_;
   HeldPiece piece_;
   Restore restore_;

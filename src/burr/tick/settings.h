@@ -22,6 +22,8 @@
 
 namespace burr::tick {
 
+class OwnLaw;
+
 using ToolMode = tool::Mode;
 inline constexpr int kToolModes = tool::kModes;
 
@@ -59,8 +61,10 @@ struct ServoSettings {
   double velocity_filter_hz = 100;  // of the hand's velocity, first order
   double deposit_rate = 5e-9;  // at full pedal                                          [m^3/s]
   volume::TissueId deposit_tissue = 1;
-  double stroke_pause = 0.3;        // a stroke ends after so long without contact           [s]
-  double lift_speed = 50e-3;        // of the burr before an undo                             [m/s]
+  double stroke_pause = 0.3;  // a stroke ends after so long without contact           [s]
+  double lift_speed = 50e-3;  // of the burr before an undo                             [m/s]
+  OwnLaw* law =
+      nullptr;  // of one's own, in place of the force law (own_law.h); it outlives the servo
   std::size_t undo_bricks = 16384;  // that all remembered strokes may touch together
 };
 

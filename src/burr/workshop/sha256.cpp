@@ -1,12 +1,14 @@
-#include "batch/sha256.h"
+#include "burr/workshop/sha256.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
-namespace burr::app {
+namespace burr::workshop {
 
 std::string sha256(std::string_view bytes) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
@@ -18,4 +20,11 @@ std::string sha256(std::string_view bytes) {
   return text;
 }
 
-}  // namespace burr::app
+Result<std::string> sha256_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file) return error(Trouble::io, fmt::format("{}: it cannot be read", path));
+  return sha256(bytes);
+}
+
+}  // namespace burr::workshop
