@@ -181,8 +181,8 @@ TEST(Splinter, IsRefusedWhereTheBoneIsAnother) {
   EXPECT_FALSE(edit::PieceStore{}.prepare_splinter(*large, other).ok());
 }
 
-bool waited_for(const std::function<bool()>& what, int tries = 3000) {
-  for (int n = 0; n < tries; ++n) {
+bool waited_for(const std::function<bool()>& what) {
+  for (int n = 0; n < 3000; ++n) {
     if (what()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -229,22 +229,23 @@ TEST(Splinter, ThatWasCutFreeIsTakenByATubeNearIt) {
       look();
       return splinters > 0;
     })) << "it came free";
-    static_cast<void>(waited_for(
-        [&] {
-          look();
-          return sucked > 0;
-        },
-        150));
+    // until the thread has looked with the tube as it is now, and the servo has written what it found
+    const auto has_looked = [&] {
+      const std::uint64_t looked = mover.looks();
+      EXPECT_TRUE(waited_for([&] {
+        look();
+        return mover.looks() >= looked + 3;
+      }));
+      const std::uint64_t ticks = session->ticks();
+      EXPECT_TRUE(waited_for([&] { return session->ticks() > ticks + 50; }));
+      look();
+    };
+    has_looked();
     EXPECT_EQ(sucked, 0) << "too far away";
     by.mouth = kSplinter + Vec3(4, 0, 0) * kMm;
     by.bore = 0.4 * kMm;
     mover.suck(by);
-    static_cast<void>(waited_for(
-        [&] {
-          look();
-          return sucked > 0;
-        },
-        150));
+    has_looked();
     EXPECT_EQ(sucked, 0) << "thicker than the tube";
     by.bore = 1.5 * kMm;
     mover.suck(by);
@@ -254,12 +255,7 @@ TEST(Splinter, ThatWasCutFreeIsTakenByATubeNearIt) {
     }));
     by.mouth = kOld;
     mover.suck(by);
-    static_cast<void>(waited_for(
-        [&] {
-          look();
-          return sucked > 1;
-        },
-        150));
+    has_looked();
     session->stop();
     EXPECT_EQ(sucked, 1) << "what lay free at the start stays";
     EXPECT_LT(volume::depth_at(session->bone(), kSplinter), 0);

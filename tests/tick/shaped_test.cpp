@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -296,20 +297,26 @@ TEST(RackInASession, IsRecordedByDefinitionAndReplaysToTheSameBits) {
   EXPECT_EQ(again->bone->content_hash(), bench.session->bone().content_hash());
 }
 
-// Recordings from before tools had friction lack the setting, and are replayed without it.
-TEST(RackInASession, ARecordingWithoutTheSettingOfFrictionReplaysAsItWasMade) {
+// Recordings from before tools had friction, rested on planes, or came to rest so closely lack the setting, and
+// are replayed as they were made. older: puts it as it was then.
+void expect_old_recordings_replay(const char* setting,
+                                  const std::function<void(tick::ServoSettings&)>& older,
+                                  double friction_scale = 1,
+                                  const std::function<void(tick::ServoSettings&)>& newer = {}) {
   NoProgress quiet;
   const burr::test::Folder folder;
   std::uint64_t hashes[2] = {};
-  for (const bool friction : {true, false}) {
-    const std::string file = folder / (friction ? "new.mcap" : "old.mcap");
+  for (const bool on : {true, false}) {
+    const std::string file = folder / (on ? "new.mcap" : "old.mcap");
     sim::SessionSettings settings = with_tool(of_rack("osteotome"));
-    settings.servo.tool_friction = friction;
+    settings.servo.friction_scale = friction_scale;
+    if (on && newer) newer(settings.servo);
+    if (!on) older(settings.servo);
     Bench bench(phantom::slab(), settings);
     record::SessionInfo info;
     sim::describe(bench.session->settings(), bench.session->hand().spec(), info);
-    ASSERT_EQ(info.numbers.count("tool_friction"), 1U);
-    if (!friction) info.numbers.erase("tool_friction");
+    ASSERT_EQ(info.numbers.count(setting), 1U);
+    if (!on) info.numbers.erase(setting);
     info.volume.content_hash = bench.session->bone().content_hash();
     info.volume.grid = bench.session->bone().grid();
     info.volume.tissues = bench.session->bone().tissues();
@@ -318,7 +325,7 @@ TEST(RackInASession, ARecordingWithoutTheSettingOfFrictionReplaysAsItWasMade) {
     ASSERT_TRUE(recorder.start(file, info, &bench.session->bone()).ok());
     bench.session->set_recorder(&recorder);
     const Done done = work(bench, "osteotome", 600);
-    hashes[friction ? 1 : 0] = done.hash;
+    hashes[on ? 1 : 0] = done.hash;
     bench.session->set_recorder(nullptr);
     ASSERT_TRUE(recorder.finish().ok());
     auto player = record::Player::open(file);
@@ -331,7 +338,23 @@ TEST(RackInASession, ARecordingWithoutTheSettingOfFrictionReplaysAsItWasMade) {
         << "tick " << *again->first_different_tick << ": " << again->difference;
     EXPECT_EQ(again->ticks, 600U);
   }
-  EXPECT_NE(hashes[0], hashes[1]) << "friction is felt: the test shows nothing otherwise";
+  EXPECT_NE(hashes[0], hashes[1]) << "it is felt: the test shows nothing otherwise";
+}
+
+TEST(RackInASession, ARecordingWithoutTheSettingOfFrictionReplaysAsItWasMade) {
+  expect_old_recordings_replay("tool_friction",
+                               [](tick::ServoSettings& servo) { servo.tool_friction = false; });
+}
+
+TEST(RackInASession, ARecordingWithoutTheSettingOfPlanesReplaysAsItWasMade) {
+  expect_old_recordings_replay(
+      "tool_planes", [](tick::ServoSettings& servo) { servo.tool_planes = false; }, 0,
+      [](tick::ServoSettings& servo) { servo.tool_planes = true; });
+}
+
+TEST(RackInASession, ARecordingWithoutTheSettingOfRestReplaysAsItWasMade) {
+  expect_old_recordings_replay("tool_close_m",
+                               [](tick::ServoSettings& servo) { servo.tool_close = 1e-6; });
 }
 
 // A saw vibrates along its stroke. The hand of the test does not give way, so the same session without

@@ -70,8 +70,15 @@ TEST(WoundTick, SaysWhatTheToolThrows) {
   const Vec3 way = row_of(1).hand.world_from_tool.q * tools[1].cutter.way;
   EXPECT_EQ(tick(1).dust, 1);
   EXPECT_NEAR((tick(1).stroke - way).norm(), 0, 1e-12);
-  EXPECT_EQ(tick(2).dust, 0);
-  EXPECT_EQ(tick(3).dust, 0);
+  for (const int edge : {2, 3}) {
+    const math::Quat q = row_of(edge).hand.world_from_tool.q;
+    EXPECT_EQ(tick(edge).dust, 0);
+    EXPECT_TRUE(tick(edge).chips);
+    const tool::ShapedTool& tool = tools[static_cast<std::size_t>(edge)];
+    EXPECT_NEAR((tick(edge).forward - q * tool.cutter.way).norm(), 0, 1e-12);
+    EXPECT_GT((q.conjugate() * tick(edge).edge).y(), 1e-3) << "half of the edge's width";
+  }
+  EXPECT_FALSE(tick(1).chips);
   EXPECT_EQ(tick(1).others, 0);
   tick::TickRow second = row_of(0);
   second.ledger.removed = 2e-9;

@@ -325,7 +325,7 @@ void wrench_and_energy(VerifyReport::Part& part, double h) {
     before = touch;
   }
   part.at_most(at("balance.force-of-contacts", h), 1e-9, worst, "m");
-  part.at_most(at("energy.closed-loop", h), 0.005 * most, std::abs(work), "J");
+  part.at_most(at("energy.closed-loop", h), 0.001 * most, std::abs(work), "J");
 }
 
 // A box on a slope under a load straight down: it slides if and only if tan > mu. By steps of the slope:

@@ -25,6 +25,7 @@ struct PieceMove {
   std::uint64_t bricks = 0;  // MovedBricks::hash
   std::uint64_t body = 0;    // of lift_piece: PieceBody::hash
   bool lifted = false;       // of move_piece: the piece is in a hand, and the bone is without it
+  bool specks = false;       // what lies loose in the piece's pores goes with it
 
   bool operator==(const PieceMove&) const = default;
 };

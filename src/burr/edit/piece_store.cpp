@@ -295,10 +295,47 @@ const PieceStore::Place* PieceStore::place_of(const Bone& bone, const Kept& kept
   return nullptr;
 }
 
+namespace {
+
+// Does the dust lie in a pore of the piece? From its first voxel along the three axes and back, nowhere
+// other bone comes first, and in four of the six directions the piece does: a pore may be open to the cut.
+bool in_pore(const Bone& bone, const volume::PieceFinder& finder, std::size_t dust,
+             std::size_t piece) {
+  const volume::Piece& speck = finder.pieces()[dust];
+  const volume::Piece& around = finder.pieces()[piece];
+  if ((speck.low.array() < around.low.array()).any() ||
+      (speck.high.array() > around.high.array()).any())
+    return false;
+  int met = 0;
+  for (int way = 0; way < 6; ++way) {
+    Ijk step = Ijk::Zero();
+    step[way / 2] = way % 2 == 0 ? 1 : -1;
+    for (Ijk at = speck.seed + step;
+         (at.array() >= around.low.array()).all() && (at.array() <= around.high.array()).all();
+         at += step) {
+      if (bone.field(at.x(), at.y(), at.z()) < volume::kIso) continue;
+      const int of = finder.piece_of(at);
+      if (of > 0 && of != static_cast<int>(piece) &&
+          is_dust(bone, finder, static_cast<std::size_t>(of)))
+        continue;  // it, or another speck
+      if (of != static_cast<int>(piece)) return false;
+      ++met;
+      break;
+    }
+  }
+  return met >= 4;
+}
+
+}  // namespace
+
 std::shared_ptr<PieceStore::Kept> PieceStore::take(const Bone& bone,
                                                    const volume::PieceFinder& finder,
-                                                   std::size_t piece) const {
-  auto alone = volume::piece_as_bone(bone, finder, piece);
+                                                   std::size_t piece, bool specks) const {
+  std::vector<std::size_t> with;
+  for (std::size_t dust = 1; specks && dust < finder.pieces().size(); ++dust)
+    if (dust != piece && is_dust(bone, finder, dust) && in_pore(bone, finder, dust, piece))
+      with.push_back(dust);
+  auto alone = volume::piece_as_bone(bone, finder, piece, with);
   if (!alone) return nullptr;
   auto kept = std::make_shared<Kept>();
   kept->seed = finder.pieces()[piece].seed;
@@ -365,7 +402,7 @@ std::vector<PieceStore::Found> PieceStore::list(const Bone& bone) const {
   std::size_t free = 0;
   for (std::size_t piece = 1; piece < finder.pieces().size() && free < kMostFree; ++piece) {
     if (known[piece] || is_dust(bone, finder, piece)) continue;
-    const auto kept = take(bone, finder, piece);
+    const auto kept = take(bone, finder, piece, true);
     if (!kept) continue;
     ++free;
     Found& found = all.emplace_back();
@@ -448,7 +485,7 @@ Result<const PieceStore::Place*> PieceStore::look_up(const Bone& bone, const Pie
   const Ijk seed(move.seed[0], move.seed[1], move.seed[2]);
   const int piece = finder.piece_of(seed);
   if (move.piece == kept_.size() && piece > 0)
-    ready.kept = take(bone, finder, static_cast<std::size_t>(piece));
+    ready.kept = take(bone, finder, static_cast<std::size_t>(piece), move.specks);
   if (!ready.kept) return error("there is no free piece any more where the move begins");
   return ready.kept->places.front().get();
 }
@@ -535,7 +572,7 @@ Result<std::shared_ptr<const MovedBricks>> PieceStore::prepare_splinter(
   const int piece = bone.grid().contains(seed) ? finder.piece_of(seed) : volume::PieceFinder::kNone;
   if (piece <= 0 || !is_dust(bone, finder, static_cast<std::size_t>(piece)))
     return error("no splinter lies there any more");
-  const auto kept = take(bone, finder, static_cast<std::size_t>(piece));
+  const auto kept = take(bone, finder, static_cast<std::size_t>(piece), false);
   if (kept == nullptr) return error("no splinter lies there any more");
   const auto bricks = std::make_shared<MovedBricks>();
   Work work(bone);

@@ -117,9 +117,10 @@ class PieceStore {
                                              Ready& ready) const;
   [[nodiscard]] const Place* place_of(const volume::Bone& bone, const Kept& kept) const;
   [[nodiscard]] std::unique_ptr<volume::Bone> taken_out(const volume::Bone& bone, bool back) const;
+  // specks: PieceMove::specks
   [[nodiscard]] std::shared_ptr<Kept> take(const volume::Bone& bone,
-                                           const volume::PieceFinder& finder,
-                                           std::size_t piece) const;
+                                           const volume::PieceFinder& finder, std::size_t piece,
+                                           bool specks) const;
 
   std::vector<std::shared_ptr<Kept>> kept_;
   std::optional<std::uint32_t> out_;  // lifted last, and not put down

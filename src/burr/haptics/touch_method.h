@@ -58,6 +58,9 @@ struct ProxySettings {
   double slip = 0;
   // Friction holds tools of several parts too (six/six_friction.h): a shaft, the tools of the rack.
   bool parts_rub = true;
+  double tool_close = 1e-7;  // as `close`, of tools of several parts                      [m]
+  bool planes =
+      true;  // the tools of the rack also touch the planes of the discs (six/row_kernel.h)
   int max_moves = 12;   // per tick; a faster hand is caught up with later
   double close = 0.02;  // a move shorter than this ends the search                      [voxel]
   double push_out_speed = 5e-3;  // speed at which bone that grew pushes the burr out  [voxel/tick]

@@ -536,7 +536,8 @@ constexpr const char* kCommandSchema = R"({
    "writes": {"type": "integer", "description": "how often the bone had been written when the move was prepared; another number: refused"},
    "bricks": {"type": "string", "description": "hexadecimal, hash of the bricks after the move"},
    "body": {"type": "string", "description": "of lift_piece: hexadecimal, hash of the distances to the piece's surface and of where it lay"},
-   "lifted": {"type": "boolean", "description": "of move_piece: the piece was lifted before; absent: it was not"}
+   "lifted": {"type": "boolean", "description": "of move_piece: the piece was lifted before; absent: it was not"},
+   "specks": {"type": "boolean", "description": "what lay loose in the pores of the piece went with it; absent: it stayed"}
   }}
  }
 })";
@@ -729,6 +730,7 @@ std::string to_json(const tick::CommandRow& row) {
                        {"bricks", hex(move.bricks)}};
     if (move.body != 0) object["piece"]["body"] = hex(move.body);
     if (move.lifted) object["piece"]["lifted"] = true;
+    if (move.specks) object["piece"]["specks"] = true;
   }
   return object.dump();
 }
@@ -763,14 +765,16 @@ bool move_from_json(const json& object, double number, edit::PieceMove& move) {
   const auto piece = object.find("piece");
   if (piece == object.end() || !piece->is_object() || !(number >= 0 && number < kMostPieces))
     return false;
-  const auto writes = piece->find("writes"), lifted = piece->find("lifted");
+  const auto writes = piece->find("writes");
   if (writes == piece->end() || !writes->is_number_unsigned() ||
       !hash_from(*piece, "bricks", move.bricks))
     return false;
   if (piece->contains("body") && !hash_from(*piece, "body", move.body)) return false;
-  if (lifted != piece->end()) {
-    if (!lifted->is_boolean()) return false;
-    move.lifted = lifted->get<bool>();
+  for (const auto& [name, flag] : {std::pair{"lifted", &move.lifted}, {"specks", &move.specks}}) {
+    const auto found = piece->find(name);
+    if (found == piece->end()) continue;
+    if (!found->is_boolean()) return false;
+    *flag = found->get<bool>();
   }
   move.piece = static_cast<std::uint32_t>(number);
   move.writes = writes->get<std::uint64_t>();

@@ -157,6 +157,8 @@ struct Scene {
   std::vector<SoftStructure> soft;     // see render/soft_scene.h
   Burr burr;
   std::optional<OtherTool> beside;  // of the other hand
+  // Chips of bone (render/chips.h); nullptr: none. Frame: world [m]. Sent again when the pointer changes.
+  std::shared_ptr<const surface::Mesh> chips;
   std::vector<Marker> markers;
   std::vector<Rod> rods;
   std::optional<Mirrored> mirrored;

@@ -50,6 +50,7 @@ Wound::Wound(double voxel, std::vector<float> bleeding)
 
 void Wound::forget() {
   cells_.clear();
+  chips_.forget();
   low_ = high_ = Ijk::Zero();
   first_tool_ = other_tool_ = {};
   cut_at_ = -1e9;
@@ -207,6 +208,7 @@ void Wound::undo(const Tick& tick) {
   constexpr double kSame = 1e-15;  // rounding of sums [m^3]
   const double net = tick.removed - tick.undone;
   while (!before_.empty() && before_.back().net > net + kSame) before_.pop_back();
+  chips_.back_to(before_.empty() ? -1e9 : before_.back().t);
   first_tool_.airborne = other_tool_.airborne = 0;
   cut_at_ = -1e9;  // what is cut next is another stroke
   for (Cell& cell : cells_) {
@@ -241,6 +243,7 @@ void Wound::undo(const Tick& tick) {
 void Wound::cut(Source& source, const Tick& tick, const Vec3& from, double removed) {
   if (!up_) up_ = tick.up.norm() > 0 ? tick.up.normalized().eval() : Vec3::UnitZ();
   source.airborne += tick.dust * removed / kSolidShare;
+  if (tick.chips) chips_.throw_from({tick.t, tick.tip, tick.forward, tick.edge, *up_}, removed);
   const Vec3 step = tick.tip - from;
   const Vec3 way = step.norm() > 1e-9 ? step.normalized().eval() : Vec3::Zero().eval();
   const auto begins = static_cast<float>(source.along - way.dot(from));
@@ -271,6 +274,7 @@ void Wound::cover(const Tick& tick, const Vec3& from) {
 }
 
 void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
+  chips_.rinse(tick.tip, tick.radius + kSprayReach, seconds);
   const auto soaks = static_cast<float>(seconds / kSoakTime);
   const float washed = left_after(seconds, kWashTime), rinsed = left_after(seconds, kRinseTime);
   each_near(from, tick.tip, tick.radius + kSprayReach, [&](Cell& cell, double d) {
@@ -289,6 +293,7 @@ void Wound::soak(const Tick& tick, const Vec3& from, double seconds) {
 
 void Wound::suck(const Vec3& mouth, double radius, double seconds) {
   if (cells_.empty() || !mouth.allFinite() || !(seconds > 0)) return;
+  chips_.suck(mouth, radius + kSuctionReach);
   const float left = left_after(seconds, kSuctionTime);
   // dust that still flies about the tool is drawn in by a mouth beside it, and never settles
   for (Source* source : {&first_tool_, &other_tool_})

@@ -11,8 +11,8 @@
 //   wet     bone that coolant reaches; dries within kDryTime
 //   dust   bone that is cut dry goes into the air as dust and settles within kDustReach of the tool
 //           on faces that point up; the burr sweeps its own cut clean. A tool that turns throws it to
-//           all sides, a saw along its stroke (kAlong, kAcross); a chisel or curette makes chips, which
-//           fall away, and no dust. Coolant makes a paste of it, which lies on steeper faces too and
+//           all sides, a saw along its stroke (kAlong, kAcross); a chisel or curette makes chips
+//           (render/chips.h), and no dust. Coolant makes a paste of it, which lies on steeper faces too and
 //           runs down; coolant slowly rinses it away
 //   ridges  fine parallel ridges where a fluted burr cut, across its way; a diamond burr polishes them
 //           away. They stay
@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "burr/math/aabb.h"
+#include "burr/render/chips.h"
 #include "burr/render/scene.h"
 #include "burr/volume/tissue.h"
 
@@ -82,6 +83,9 @@ class Wound {
                                              // that of a later tick, of an earlier one not  [m^3]
     double dust = 1;                         // share of what it removes that flies as dust
     math::Vec3 stroke = math::Vec3::Zero();  // of a blade, unit; 0: it turns
+    // What it removes comes off as chips: from the edge's middle to its end; and in which it cuts, unit
+    bool chips = false;
+    math::Vec3 edge = math::Vec3::Zero(), forward = math::Vec3::UnitZ();
   };
   void see(const Tick& tick);
   // The tool of the other hand at that time, after see(): what it cuts is fresh, and dust lies about
@@ -111,6 +115,7 @@ class Wound {
   // All patches for a still picture. No patch was stained while blood ran, so it first lets blood
   // run for a few seconds.
   void stain_still(Scene& scene);
+  [[nodiscard]] const Chips& chips() const { return chips_; }
 
  private:
   struct Cell {
@@ -169,6 +174,7 @@ class Wound {
   math::Ijk low_ = math::Ijk::Zero(), high_ = math::Ijk::Zero();  // only [low, high) may hold
                                                                   // something
   Source first_tool_, other_tool_;
+  Chips chips_;
   double own_ = 0;              // the most that the first tool removed so far [m^3]
   double cut_at_ = -1e9;        // when something was removed last [s]
   std::vector<Before> before_;  // strokes, the oldest first

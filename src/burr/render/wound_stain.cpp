@@ -123,6 +123,7 @@ void Wound::stain(Scene& scene) {
   for (Cell& cell : cells_) cell.skin = false;
   for (std::size_t patch = 0; patch < scene.patches.size(); ++patch)
     stain(scene, static_cast<int>(patch));
+  chips_.lie(scene, first_tool_.last ? first_tool_.last->t : 0);
 }
 
 void Wound::stain_still(Scene& scene) {

@@ -17,6 +17,7 @@ edit::PieceMove further(const edit::PieceStore::Found& piece, const Vec3& by, co
   const Vec3 shift = piece.now * piece.centre - piece.centre + by;
   edit::PieceMove move;
   move.piece = piece.number;
+  move.specks = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     move.seed[axis] = piece.seed[static_cast<int>(axis)];
     move.by[axis] = shift[static_cast<int>(axis)];

@@ -112,7 +112,10 @@ void PieceMover::run() {
     if (move) prepare(*move);
     if (list) list_pieces();
     if (!move && !list && !away) notice();
-    if (!move && !list && !away && suction) prepare_splinter(*suction);
+    if (!move && !list && !away && suction) {
+      prepare_splinter(*suction);
+      ++looks_;
+    }
   }
 }
 

@@ -69,6 +69,9 @@ class PieceMover {
   // splinters in its reach, one after the other: those that came free since this object was made. Not while a piece
   // is out of the bone.
   void suck(const std::optional<Suction>& by);
+  // How often the thread of this object has looked for a splinter to draw in; any thread. The look that is under way when
+  // suck() is called still is for the tube before.
+  [[nodiscard]] std::uint64_t looks() const { return looks_.load(); }
 
   // Asks for the list of pieces that may be moved, with their bones.
   void take();
@@ -171,6 +174,8 @@ class PieceMover {
   std::optional<Result<Prepared>> ready_;
   std::optional<Suction> suction_;
   std::optional<Splinter> splinter_;
+
+  std::atomic<std::uint64_t> looks_ = 0;
 
   // of the thread
   std::uint64_t seen_ = 0, seen_before_ = 0;  // writes

@@ -78,6 +78,8 @@ const Entry kEntries[] = {
     BURR_ENTRY("friction_turning", settings.servo.friction_turning, 0, 1e3),
     BURR_ENTRY("kinetic_share", settings.servo.kinetic_share, 0, 1),
     BURR_ENTRY("tool_friction", settings.servo.tool_friction, 0, 1, true),
+    BURR_ENTRY("tool_planes", settings.servo.tool_planes, 0, 1, true),
+    BURR_ENTRY("tool_close_m", settings.servo.tool_close, 0, 1e-3, true),
     BURR_ENTRY("wedge", settings.servo.wedge, 0, 1e6, true),
     BURR_ENTRY("slip_m_per_s", settings.servo.slip_m_s, 0, 1e6, true),
     BURR_ENTRY("velocity_filter_hz", settings.servo.velocity_filter_hz, 0, 1e6),
@@ -112,6 +114,8 @@ Recorded older() {
   all.settings.servo.slip_m_s = 0;  // no limit
   all.settings.servo.turn_hand = false;
   all.settings.servo.tool_friction = false;
+  all.settings.servo.tool_planes = false;
+  all.settings.servo.tool_close = 1e-6;
   return all;
 }
 

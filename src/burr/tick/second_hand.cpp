@@ -71,6 +71,8 @@ std::unique_ptr<haptics::ToolTouch> touch_of(const volume::IsoVertices& surface,
   proxy.slip = settings.slip_m_s / servo.rate_hz;
   proxy.push_out_speed = kRecovery / servo.rate_hz;
   proxy.parts_rub = servo.tool_friction;
+  proxy.tool_close = servo.tool_close;
+  proxy.planes = servo.tool_planes;
   proxy.wedge = servo.wedge;
   if (!settings.tool) {
     proxy.friction_static = proxy.friction_kinetic = settings.friction;

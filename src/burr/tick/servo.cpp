@@ -28,6 +28,8 @@ haptics::ProxySettings proxy_settings(const ServoSettings& settings) {
           .wedge = settings.wedge,
           .slip = settings.slip_m_s / settings.rate_hz,
           .parts_rub = settings.tool_friction,
+          .tool_close = settings.tool_close,
+          .planes = settings.tool_planes,
           .push_out_speed = kRecovery / settings.rate_hz};
 }
 

@@ -53,6 +53,9 @@ struct ServoSettings {
   double friction_turning = 0.05;  // what is left of it while the spindle turns            [-]
   double kinetic_share = 0.9;      // sliding friction over sticking friction               [-]
   bool tool_friction = true;       // holds tools of several parts too (six/six_friction.h)
+  double tool_close = 1e-7;        // a tool's move shorter than this ends the search of a tick [m]
+  // Tools of the rack rest on planes of the bone (six/row_kernel.h). Off: a saw then cuts less deep.
+  bool tool_planes = false;
   double wedge = 2;  // friction counts at most so many times the push; 0: no limit  [-]
   // The stretch of the spring changes by the hand's own move and so much more; 0: no limit. A
   // handpiece of 100 g on a spring of 1000 N/m that slips off swings over in 31 ms, so it moves

@@ -299,11 +299,16 @@ class Around {
 }  // namespace
 
 Result<std::unique_ptr<Bone>> piece_as_bone(const Bone& bone, const PieceFinder& finder,
-                                            std::size_t piece) {
+                                            std::size_t piece,
+                                            const std::vector<std::size_t>& with) {
   if (piece >= finder.pieces().size())
     return error("the bone has " + std::to_string(finder.pieces().size()) +
                  " pieces; there is no number " + std::to_string(piece + 1));
   const auto wanted = static_cast<std::int32_t>(piece);
+  const auto goes = [&](std::int32_t of) {
+    return of == wanted || std::find(with.begin(), with.end(), static_cast<std::size_t>(of)) !=
+                               with.end();  // kNone is none of them
+  };
   auto out = std::make_unique<Bone>(bone.grid(), bone.tissues(), bone.used_slots(), 0, false);
   Around around(bone, finder);
   std::array<std::int32_t, kBrickVoxels> labels;
@@ -324,7 +329,7 @@ Result<std::unique_ptr<Bone>> piece_as_bone(const Bone& bone, const PieceFinder&
       if (field[v] == 0) continue;
       std::int32_t of = labels[static_cast<std::size_t>(v)];
       if (of == PieceFinder::kNone) of = around.nearest(corner + Ijk(v & 7, v >> 3 & 7, v >> 6));
-      if (of != wanted) continue;
+      if (!goes(of)) continue;
       mine.voxel[v] = field[v];
       any = true;
     }

@@ -77,10 +77,10 @@ class PieceFinder {
 
 // A piece as a bone of its own, on the same grid, with its tissues. Voxels of the ramp outside go
 // to the piece whose voxels are nearest, those that are near none to the largest: the volumes of
-// all pieces add up to the bone's to the unit. The bone must be at rest. Errors: there is no such
-// piece.
-[[nodiscard]] Result<std::unique_ptr<Bone>> piece_as_bone(const Bone& bone,
-                                                          const PieceFinder& finder,
-                                                          std::size_t piece);
+// all pieces add up to the bone's to the unit. with: further pieces that go into the same bone; they lie in
+// the box around it. The bone must be at rest. Errors: there is no such piece.
+[[nodiscard]] Result<std::unique_ptr<Bone>> piece_as_bone(
+    const Bone& bone, const PieceFinder& finder, std::size_t piece,
+    const std::vector<std::size_t>& with = {});
 
 }  // namespace burr::volume

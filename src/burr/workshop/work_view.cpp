@@ -21,10 +21,24 @@ render::Scene scene_of_work(const volume::Bone& bone, double burr_radius, const 
 
 namespace {
 
+// From the middle of what cuts to its end along y, along which edges lie.  [m]
+math::Vec3 edge_of(const tool::Tool& tool) {
+  double half = 0;
+  for (int p = 0; p < tool.count; ++p) {
+    const tool::Part& part = tool.parts[static_cast<std::size_t>(p)];
+    if (part.role != tool::Role::cuts) continue;
+    half = std::max(half, part.tool_from_part.p.y() +
+                              tool::support(part.shape, part.tool_from_part.q.conjugate() *
+                                                            math::Vec3::UnitY()));
+  }
+  return half * math::Vec3::UnitY();
+}
+
 // What a tool throws: one that turns dust to all sides, a blade dust along its stroke, an edge that is
 // pushed or struck chips, and no dust.
-void throw_dust(const tool::Cutter& cutter, const math::Quat& world_from_tool,
+void throw_dust(const tool::ShapedTool& shaped, const math::Quat& world_from_tool,
                 render::Wound::Tick& tick) {
+  const tool::Cutter& cutter = shaped.cutter;
   switch (cutter.drive) {
     case tool::Drive::turning:
       return;
@@ -35,6 +49,9 @@ void throw_dust(const tool::Cutter& cutter, const math::Quat& world_from_tool,
     case tool::Drive::pushed:
     case tool::Drive::struck:
       tick.dust = 0;
+      tick.chips = true;
+      tick.forward = world_from_tool * cutter.way;
+      tick.edge = world_from_tool * edge_of(shaped.tool);
       return;
   }
 }
@@ -57,7 +74,7 @@ render::Wound::Tick wound_tick(const tick::TickRow& row, double rate_hz,
   if (second != nullptr) tick.others = second->ledger.removed;
   const auto number = static_cast<std::size_t>(row.tool.number);
   if (row.tool.number >= 0 && number < tools.size())
-    throw_dust(tools[number].cutter, pose_of_tool(row).q, tick);
+    throw_dust(tools[number], pose_of_tool(row).q, tick);
   return tick;
 }
 

@@ -3,6 +3,11 @@
 //
 // A ball touches the small discs of volume/iso_vertices.h, as the proxy of three unknowns does:
 // for it their distance has a closed form. Every other shape touches the points in their middles.
+// A sharp edge would sink between the points and hop from one to the next. So a part with `planes`
+// also touches the planes of the discs: with n from the point q to the part, phi their distance, rho
+// the part's rounding and P = q + (phi + rho) n the nearest place of its core, the place P - rho m
+// stays above the plane through q with the normal m, as far as the disc is clean (its radius) and
+// faces the part. The point itself may then be up to kSlack deep.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +24,7 @@ struct PartThere {
   float part_from_grid[9] = {};  // rotation, by rows
   float offset[3] = {};          // place in the part = part_from_grid * w + offset
   float ball[3] = {};            // a ball's centre minus c
+  bool planes = false;
 };
 
 // What a scan looks for: rows with gap < p + t |w|.
@@ -27,6 +33,9 @@ struct RowBounds {
   float t = 0;          // its greatest turn                                  [rad]
   float inverse_L = 0;  // 1 / L                                        [1 / voxel]
   float most = 0;       // at least p + t |w| of every point                  [voxel]
+  // Only where the part has planes: how much farther away points are whose planes are looked at
+  // [voxel], and 1 / radius of a clean disc [1 / voxel].
+  float beyond = 0, inverse_disc = 0;
 };
 
 // Appends the points of a brick that are nearer than `reach` to the part. brick: its first voxel;
@@ -41,7 +50,7 @@ using MakeRows = void (*)(NearPoints& near, const float c[3], const PartThere& p
                           const RowBounds& bounds, Rows& rows) noexcept;
 
 // Appends the places of a part that are nearer to the bone than bounds.p; m is then the place itself,
-// seen from c, times bounds.inverse_L: what friction needs.
+// seen from c, times bounds.inverse_L: what friction needs. Points only, no planes.
 using PressPoints = MakeRows;
 
 // Index of the row that the move z = (p, t) violates most, or -1; `worst` is its value there, below

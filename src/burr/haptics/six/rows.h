@@ -24,8 +24,9 @@ struct Rows {
 struct NearPoints {
   static constexpr int kMost = 16384;
   alignas(64) float x[kMost + 16], y[kMost + 16], z[kMost + 16];
-  alignas(64) float mx[kMost + 16], my[kMost + 16], mz[kMost + 16];  // normal, for a ball only
-  alignas(64) float rd[kMost + 16];                                  // of the disc, likewise
+  // normal and radius of the disc, for a ball and for a part that rests on planes only
+  alignas(64) float mx[kMost + 16], my[kMost + 16], mz[kMost + 16];
+  alignas(64) float rd[kMost + 16];
   // Of each 16 points that follow each other: their least distance to the part when they were last looked
   // at, and kSteepest times the way of the part until then. While the part has not gone farther, none of
   // them is near, and they are passed over.

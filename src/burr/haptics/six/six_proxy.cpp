@@ -25,11 +25,43 @@ constexpr double kRest = 0.1;        // of a move left over that counts as rest 
 constexpr double kLayer = 0.1;       // above the bone, that carries a face's load         [voxel]
 constexpr double kRounding = 0.01;   // of floats, and more                           [voxel]
 constexpr int kHoldMoves = 3;        // to where friction holds the tool
+// A point so far to the side of an edge still carries it by its plane: a little more than half of the
+// widest gap between points                                                           [voxel]
+constexpr double kBeside = 0.7;
 
 double length3(const Six& z, std::size_t first) BURR_RT {
   return std::sqrt(math::sum_of_three(z[first] * z[first], z[first + 1] * z[first + 1],
                                       z[first + 2] * z[first + 2]));
 }
+
+// Bone that curves away under a plane lets moves overshoot to and fro, with nearly the same length.
+// Where a move turns back, the next ones are made shorter, by the secant through both (Irons & Tuck
+// 1969).
+class Settling {
+ public:
+  // The share of the move z to make. cut_short: z is not where it wanted to go.
+  double share(const Six& z, bool cut_short) BURR_RT {
+    constexpr double kLeast = 0.15;
+    if (cut_short) {
+      known_ = false;
+      return share_ = 1;
+    }
+    if (known_ && dot6(last_, z) >= 0) share_ = std::min(1.0, 2 * share_);
+    if (known_ && dot6(last_, z) < 0) {
+      Six change = z;
+      for (std::size_t k = 0; k < 6; ++k) change[k] -= last_[k];
+      share_ = std::clamp(-share_ * dot6(last_, change) / dot6(change, change), kLeast, 1.0);
+    }
+    known_ = true;
+    last_ = z;
+    return share_;
+  }
+
+ private:
+  Six last_ = {};
+  double share_ = 1;
+  bool known_ = false;
+};
 
 }  // namespace
 
@@ -61,6 +93,7 @@ SixProxy::SixProxy(const volume::IsoVertices& surface, const tool::Tool& tool,
 void SixProxy::take(const tool::Tool& tool) BURR_RT {
   tool_ = tool;
   double farthest = 1;
+  any_planes_ = false;
   for (int part = 0; part < tool.count; ++part) {
     const tool::Part& one = tool.parts[index(part)];
     shape_[index(part)] = tool::scaled(one.shape, 1 / grid_.voxel);
@@ -68,6 +101,10 @@ void SixProxy::take(const tool::Tool& tool) BURR_RT {
     far_[index(part)] = (math::norm(one.tool_from_part * ball.centre) + ball.radius) / grid_.voxel;
     if (one.role != tool::Role::seen) farthest = std::max(farthest, far_[index(part)]);
     near_[index(part)].reach = -1;
+    const tool::ShapeKind kind = one.shape.kind;
+    planes_[index(part)] = settings_.planes && surface_.largest_disc() > 0 && tool::convex(kind) &&
+                           kind != tool::ShapeKind::ball && kind != tool::ShapeKind::capsule;
+    any_planes_ = any_planes_ || planes_[index(part)];
   }
   most_ = {settings_.longest / grid_.voxel,
            std::min(settings_.most_turn, std::sqrt(2 * kTurnError / farthest))};
@@ -89,6 +126,7 @@ PartThere SixProxy::there(int part) const BURR_RT {
   const tool::Part& one = tool_.parts[index(part)];
   PartThere at;
   at.shape = shape_[index(part)];
+  at.planes = planes_[index(part)];  // take() keeps the discs for them
   const Quat grid_from_part = math::product(r_, one.tool_from_part.q);
   const Vec3 middle = r_ * (one.tool_from_part.p / grid_.voxel);
   for (int axis = 0; axis < 3; ++axis) {
@@ -208,16 +246,26 @@ bool SixProxy::still_holds(int part, double need) const BURR_RT {
          near.reach;
 }
 
+// How far beyond its reach the points lie whose planes may carry an edge of the part.  [voxel]
+double SixProxy::plane_reach(int part) const BURR_RT {
+  const double rounding = shape_[index(part)].rounding;
+  return std::sqrt(rounding * rounding + kBeside * kBeside) - rounding;
+}
+
 // All rows that a move within these limits could meet. False: too many.
-bool SixProxy::collect(const Limits& limits) BURR_RT {
+bool SixProxy::collect(const Limits& limits, bool planes) BURR_RT {
   rows_->count = 0;
   rows_->full = false;
   RowBounds bounds = {static_cast<float>(limits.move), static_cast<float>(limits.turn),
                       static_cast<float>(1 / lever_), 0};
+  if (any_planes_) bounds.inverse_disc = 1 / surface_.largest_disc();
   for (int part = 0; part < tool_.count; ++part) {
     first_row_[index(part)] = rows_->count;
     if (tool_.parts[index(part)].role == tool::Role::seen) continue;
-    const double need = limits.move + limits.turn * (far_[index(part)] + limits.move + 1) + 0.01;
+    const bool by_planes = planes && touches_planes(part);
+    const double beyond = by_planes ? plane_reach(part) : 0;
+    const double need =
+        limits.move + beyond + limits.turn * (far_[index(part)] + limits.move + 1) + 0.01;
     if (!still_holds(part, need) && !look_around(part, need + kSkin / grid_.voxel) &&
         !look_around(part, need))
       return false;
@@ -227,7 +275,10 @@ bool SixProxy::collect(const Limits& limits) BURR_RT {
                         static_cast<float>(offset.z())};
     note_way(part);
     bounds.most = static_cast<float>(limits.move + limits.turn * most_lever(part) + kRounding);
-    kernel_.make(*near.points, c, there(part), bounds, *rows_);
+    bounds.beyond = static_cast<float>(beyond);
+    PartThere at = there(part);
+    at.planes = by_planes;
+    kernel_.make(*near.points, c, at, bounds, *rows_);
     if (rows_->full) return false;
   }
   for (int part = tool_.count; part <= tool::Tool::kMostParts; ++part)
@@ -239,7 +290,7 @@ bool SixProxy::is_free(const math::Pose& pose) BURR_RT {
   const Vec3 c = c_;
   const Quat r = r_;
   place(pose);
-  bool free = collect({0, 0});
+  bool free = collect({0, 0}, false);
   for (int j = 0; j < rows_->count && free; ++j) free = rows_->gap[j] >= 0;
   for (int part = 0; part < tool_.count && free; ++part) {
     const tool::Part& one = tool_.parts[index(part)];
@@ -452,13 +503,17 @@ SixTouch SixProxy::step(const math::Pose& hand) BURR_RT {
   Limits guess = last_;
   bool cut_short = true;
   double left = 1;
+  Settling settling;
   const double close = settings_.close / grid_.voxel;
   for (touch.moves = 0; touch.moves < settings_.max_moves;) {
     last = move(wanted(x, q), guess, cut_short, touch);
     if (touch.moves++ == 0) last_ = guess;
     if (!last.solved) break;
-    go(last.z);
     left = std::sqrt(dot6(last.z, last.z));
+    Six z = last.z;
+    if (any_planes_ && !(friction_.sticks > 0) && left >= close)
+      for (const double share = settling.share(last.z, cut_short); double& part : z) part *= share;
+    go(z);
     if (!cut_short && (left < close || last.active == 0)) break;
   }
   touch.lagging = !last.solved || cut_short || (last.active > 0 && left > kRest);

@@ -10,6 +10,9 @@
 // so a straight move between two free places is free; a turn by theta errs by theta^2 l / 2 at the
 // lever l, so a turn is kept below 10 mrad and what it errs is taken back by the next move.
 //
+// Balls touch discs, and other parts points of the bone. An edge would hop from point to point, so the
+// convex ones also touch the planes of the discs (row_kernel.h).
+//
 // With friction the tool rests where friction holds it, as near as may be to where it was a tick ago
 // (six_friction.h); without it V is least.
 //
@@ -35,12 +38,14 @@ namespace burr::haptics {
 struct SixSettings {
   double lever = 60e-3;          // L = sqrt(k_r / k_t)                                     [m]
   int max_moves = 12;            // in a tick
-  double close = 1e-6;           // a move shorter than this ends the search                [m]
+  double close = 1e-7;           // a move shorter than this ends the search                [m]
   double longest = 1e-3;         // of a move                                               [m]
   double most_turn = 10e-3;      // of a move                                             [rad]
   double push_out_speed = 5e-3;  // of bone that grew under the tool                 [voxel/tick]
   // Friction counts at most so many times the spring's length, as ProxySettings::wedge; 0: no limit
   double wedge = 2;
+  bool planes =
+      true;  // convex parts, but for balls and capsules, also touch the planes of the discs
 };
 
 struct SixTouch {
@@ -111,7 +116,13 @@ class SixProxy {
   [[nodiscard]] bool still_holds(int part, double need) const BURR_RT;
   [[nodiscard]] double most_lever(int part) const BURR_RT;
   void note_way(int part) BURR_RT;
-  [[nodiscard]] bool collect(const Limits& limits) BURR_RT;
+  // planes: false leaves out those of the discs
+  [[nodiscard]] bool collect(const Limits& limits, bool planes = true) BURR_RT;
+  [[nodiscard]] double plane_reach(int part) const BURR_RT;
+  // Not while friction holds it: on rows whose normals differ by grains a box would creep down its slope.
+  [[nodiscard]] bool touches_planes(int part) const BURR_RT {
+    return planes_[index(part)] && !(friction_.sticks > 0);
+  }
   [[nodiscard]] Six wanted(const math::Vec3& x, const math::Quat& q) const BURR_RT;
   [[nodiscard]] LeastTwist solve(const Six& wanted) BURR_RT;
   [[nodiscard]] LeastTwist move(const Six& wanted, Limits& guess, bool& cut_short,
@@ -132,7 +143,9 @@ class SixProxy {
   tool::Tool tool_;
   std::array<tool::Shape, tool::Tool::kMostParts> shape_;  // [voxel]
   std::array<double, tool::Tool::kMostParts> far_{};       // reach of a part from c [voxel]
-  double lever_ = 0;                                       // L [voxel]
+  std::array<bool, tool::Tool::kMostParts> planes_{};      // it touches planes
+  bool any_planes_ = false;
+  double lever_ = 0;  // L [voxel]
   Limits most_{};
   math::Vec3 c_ = math::Vec3::Zero();      // p_grid
   math::Quat r_ = math::Quat::Identity();  // grid_from_tool

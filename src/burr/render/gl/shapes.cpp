@@ -17,6 +17,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kFlutes = 10;
 constexpr Colour kSteel = {0.58F, 0.60F, 0.63F}, kGrains = {0.42F, 0.38F, 0.30F};
+constexpr Colour kChip = {0.90F, 0.84F, 0.72F};  // of bone
 constexpr Colour kCollet = {0.34F, 0.35F, 0.37F}, kSatin = {0.66F, 0.67F, 0.68F},
                  kGrip = {0.20F, 0.22F, 0.25F};
 
@@ -162,7 +163,7 @@ void Shapes::make_shaft(const Burr& burr) {
 
 void Shapes::add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
                  bool steel, bool on_top, const std::vector<math::Aabb>& boxes_shape) {
-  Piece piece{&shape, world_from_shape, colour, steel, on_top, {}};
+  Piece piece{&shape, world_from_shape, colour, steel, false, on_top, {}};
   for (const math::Aabb& box : boxes_shape) {
     auto& corners = piece.boxes.emplace_back();
     for (int corner = 0; corner < 8; ++corner)
@@ -180,6 +181,7 @@ const std::vector<Piece>& Shapes::pieces(const Scene& scene) {
   if (scene.burr.visible && scene.burr.world_from_tool.finite()) add_tool(scene.burr);
   if (scene.beside && scene.beside->look && scene.beside->world_from_tool.finite())
     add_other(beside_, scene.beside->world_from_tool, scene.beside->look);
+  add_chips(scene.chips);
   for (const Marker& marker : scene.markers) {
     if (!marker.p.allFinite()) continue;
     add(ball_, placed({marker.p, math::Quat::Identity()}, marker.radius, marker.radius),
@@ -235,6 +237,26 @@ void Shapes::add_other(Sent& sent, const math::Pose& at,
   const Eigen::Matrix4d there = placed(at, 1, 1);
   if (!sent.cuts_boxes.empty()) add(sent.cuts, there, kSteel, true, false, sent.cuts_boxes);
   if (!sent.rubs_boxes.empty()) add(sent.rubs, there, kSatin, true, false, sent.rubs_boxes);
+}
+
+void Shapes::add_chips(const std::shared_ptr<const surface::Mesh>& chips) {
+  if (sent_chips_ != chips) {
+    sent_chips_ = chips;
+    chips_boxes_.clear();
+    if (chips != nullptr && !chips->vertices.empty()) {
+      send_mesh(chips_, *chips);
+      // one around each few millimetres of them: they lie apart
+      constexpr std::size_t kTogether = 88;  // vertices of one chip
+      for (std::size_t first = 0; first < chips->vertices.size(); first += kTogether) {
+        math::Aabb& box = chips_boxes_.emplace_back();
+        for (std::size_t v = first; v < std::min(first + kTogether, chips->vertices.size()); ++v)
+          box.extend(chips->vertices[v].p.cast<double>());
+      }
+    }
+  }
+  if (chips_boxes_.empty()) return;
+  add(chips_, Eigen::Matrix4d::Identity(), kChip, true, false, chips_boxes_);
+  pieces_.back().bone = true;
 }
 
 void Shapes::add_tool(const Burr& burr) {

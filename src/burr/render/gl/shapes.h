@@ -34,6 +34,7 @@ struct Piece {
   Eigen::Matrix4d world_from_shape = Eigen::Matrix4d::Identity();
   Colour colour = {1, 1, 1};
   bool steel = false;  // part of the tool, with light and shadow; else a mark
+  bool bone = false;   // looks like bone
   bool on_top = false;
   // the space it fills: corners of oriented boxes in the world; several where one would be mostly
   // empty
@@ -59,12 +60,16 @@ class Shapes {
     std::vector<math::Aabb> cuts_boxes, rubs_boxes;
   };
   void add_other(Sent& sent, const math::Pose& at, const std::shared_ptr<const ToolLook>& look);
+  void add_chips(const std::shared_ptr<const surface::Mesh>& chips);
   void add_rod(const Rod& rod);
   void add_mirrored(const Mirrored& mirrored, const Burr& burr);
 
   Shape ball_, head_, grains_, rod_, tip_, shaft_;
   Shape collet_, nose_, grip_, tail_;  // of the handpiece
   Sent held_, beside_;                 // in the first hand, in the other
+  Shape chips_;
+  std::shared_ptr<const surface::Mesh> sent_chips_;
+  std::vector<math::Aabb> chips_boxes_;
   bool made_ = false;
   double shaft_of_[2] = {0, 0};  // radius and shaft_radius of the present shaft
   std::vector<Piece> pieces_;

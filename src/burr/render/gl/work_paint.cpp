@@ -26,7 +26,7 @@ constexpr int kMostSamples = 48;  // of the hollows, see shaders.h
 
 constexpr int kFewSamples = 3;  // where time is short
 
-constexpr float kSteel = 0.67F, kMark = 0.33F;  // kinds, as in the shaders
+constexpr float kBone = 1, kSteel = 0.67F, kMark = 0.33F;  // kinds, as in the shaders
 
 }  // namespace
 
@@ -171,7 +171,9 @@ void Renderer::Work::draw_pieces(const Frame& frame, const Rect& r,
     // scaled, so that single precision suffices for small tools
     mesh.set("view_from_model_n", Eigen::Matrix3f((n / n.norm()).cast<float>()));
     mesh.set("tint_kind", Eigen::Vector4f(piece.colour[0], piece.colour[1], piece.colour[2],
-                                          piece.steel ? kSteel : kMark));
+                                          piece.bone    ? kBone
+                                          : piece.steel ? kSteel
+                                                        : kMark));
     piece.shape->draw();
   }
 }
