@@ -36,7 +36,6 @@ struct ReplayOutcome {
 // log: of this bone; gets the rows and the voxels of each tick. nullptr: nobody wants them.
 [[nodiscard]] Result<ReplayOutcome> replay(record::Player& player,
                                            std::unique_ptr<volume::Bone> bone, Progress& progress,
-                                           RowLog* log = nullptr,
-                                           tick::OwnLaw* law = nullptr);
+                                           RowLog* log = nullptr, tick::OwnLaw* law = nullptr);
 
 }  // namespace burr::sim
