@@ -26,6 +26,8 @@
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(readability-identifier-naming): names as in C */
+
 /* What burr knows in this tick. No number in it is NaN or infinite. */
 typedef struct burr_law_in_v1 {
   uint32_t size;      /* of this struct [byte]; a later burr may add fields at the end */
@@ -80,6 +82,8 @@ int burr_law_v1(void* state, const burr_law_in_v1* in, burr_law_out_v1* out);
  * Without these functions, `state` is NULL. */
 void* burr_law_v1_new(const char* settings);
 void burr_law_v1_delete(void* state);
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #ifdef __cplusplus
 }
