@@ -217,7 +217,7 @@ Events::Events(BonePtr bone, std::optional<scenario::Case> work)
 Events::~Events() {
   try {
     stop(false);
-  } catch (py::error_already_set&) {  // it asks for no signals where nothing is told
+  } catch (py::error_already_set&) {  // stop(false) calls no Python function: not reached
   }
   forget();
 }

@@ -77,7 +77,7 @@ class Events {
 
   // GIL. Raises what a function raised since the last call.
   void raise_what_failed();
-  // GIL. Tells what waits (or drops it), and ends the thread. Nothing is told after it.
+  // GIL. Calls the functions for the events that wait (or drops these), then ends the thread. No function is called afterwards.
   void stop(bool tell);
   // GIL; for Python's collector of garbage.
   int visit(visitproc told, void* arg) const;

@@ -427,7 +427,7 @@ void Session::close() {
   if (closed_) return;
   if (events_) {
     look_at_steps();
-    events_->stop(true);  // nothing is locked: what waits is told, and may look at the session
+    events_->stop(true);  // no lock is held: the functions called now may use the session
   }
   finish();
   if (events_) events_->raise_what_failed();

@@ -223,6 +223,10 @@ TEST(StationLink, PicturesGoOutWhileSomebodyLooksAndWordsComeBack) {
     return answer.status == 200;
   }));
   EXPECT_EQ(jpeg, render::jpeg_of(smaller(image, StationLink::kWide), 75));
+  EXPECT_TRUE(soon([&] {
+    static_cast<void>(server.page("GET", target));
+    return (*link)->wants_picture();
+  })) << "the next one, after this one has arrived";
   EXPECT_EQ(
       server
           .page("POST", "/api/live/say",

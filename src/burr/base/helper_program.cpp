@@ -1,6 +1,9 @@
 #include "burr/base/helper_program.h"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -25,6 +28,34 @@ std::string helper_program(const char* name, const char* variable) {
     if (::access(program.c_str(), X_OK) == 0) return program;
   }
   return {};
+}
+
+// posix_spawn, because after a fork a process with threads may only call a few functions
+int start_helper(const std::string& program, const char* name, std::initializer_list<Passed> passed,
+                 pid_t& child) {
+  posix_spawn_file_actions_t handles;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&handles);
+  posix_spawnattr_init(&attributes);
+  for (const Passed& one : passed) {
+    if (one.here == kNothing)
+      posix_spawn_file_actions_addopen(&handles, one.there, "/dev/null", O_RDWR, 0);
+    else
+      posix_spawn_file_actions_adddup2(&handles, one.here, one.there);
+  }
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  std::string first = name;
+  char* arguments[] = {first.data(), nullptr};
+  const int reason =
+      ::posix_spawn(&child, program.c_str(), &handles, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&handles);
+  posix_spawnattr_destroy(&attributes);
+  return reason;
 }
 
 }  // namespace burr::base

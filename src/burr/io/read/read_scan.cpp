@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -23,7 +22,9 @@
 #include <utility>
 #include <vector>
 
+#include "burr/base/handle.h"
 #include "burr/base/hash.h"
+#include "burr/base/helper_program.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/sandbox/fence.h"
 #include "burr/io/sandbox/fence_letter.h"
@@ -32,36 +33,9 @@
 namespace burr::io {
 namespace {
 
+using base::Handle;
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kLongestRequest = 16384;
-
-// An open file whose number is not 0..3, which are those that the reader is started with.
-class Handle {
- public:
-  Handle() = default;
-  explicit Handle(int number) : number_(number) {
-    constexpr int kFree = 10;
-    if (number_ < 0 || number_ >= kFree) return;
-    number_ = ::fcntl(number, F_DUPFD_CLOEXEC, kFree);
-    ::close(number);
-  }
-  Handle(Handle&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Handle& operator=(Handle&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() { reset(); }
-  void reset() {
-    if (number_ >= 0) ::close(std::exchange(number_, -1));
-  }
-  [[nodiscard]] int get() const { return number_; }
-  [[nodiscard]] bool open() const { return number_ >= 0; }
-
- private:
-  int number_ = -1;
-};
 
 // Memory of exactly this size, sealed: its size cannot be changed.
 Handle sealed_memory(const char* name, std::size_t bytes) {
@@ -129,29 +103,14 @@ class Reader {
     socket_ = Handle(ends[0]);
     Handle theirs(ends[1]);
 
-    // posix_spawn, because after a fork a process with threads may only call a few functions
-    posix_spawn_file_actions_t handles;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&handles);
-    posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_adddup2(&handles, theirs.get(), kFenceSocket);
-    posix_spawn_file_actions_adddup2(&handles, letter_.get(), kFenceLetter);
-    posix_spawn_file_actions_addopen(&handles, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    if (kMemoryLimit)  // otherwise a sanitizer's report must be visible
-      posix_spawn_file_actions_addopen(&handles, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    std::string name = "burr-read";
-    char* arguments[] = {name.data(), nullptr};
+    constexpr int kReports = kMemoryLimit ? base::kNothing : STDERR_FILENO;  // of a sanitizer
     pid_t child = -1;
-    const int reason =
-        ::posix_spawn(&child, program.c_str(), &handles, &attributes, arguments, environ);
-    posix_spawn_file_actions_destroy(&handles);
-    posix_spawnattr_destroy(&attributes);
+    const int reason = base::start_helper(program, "burr-read",
+                                          {{theirs.get(), kFenceSocket},
+                                           {letter_.get(), kFenceLetter},
+                                           {base::kNothing, STDOUT_FILENO},
+                                           {kReports, STDERR_FILENO}},
+                                          child);
     if (reason != 0) return failed("burr-read cannot be started", reason);
     child_ = child;
     return fine();

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,6 +20,7 @@
 #include <random>
 #include <utility>
 
+#include "burr/base/handle.h"
 #include "burr/base/helper_program.h"
 #include "burr/base/new_file.h"
 #include "burr/base/printable.h"
@@ -35,33 +35,7 @@ namespace {
 constexpr std::size_t kLongestText = 64;  // of LO [letter]
 constexpr int kMostPixels = 65535;        // of a row or a column
 
-class Handle {
- public:
-  Handle() = default;
-  // A number above those that the other process is started with.
-  explicit Handle(int number) : number_(number) {
-    constexpr int kFree = 10;
-    if (number_ < 0 || number_ >= kFree) return;
-    number_ = ::fcntl(number, F_DUPFD_CLOEXEC, kFree);
-    ::close(number);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  Handle(Handle&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Handle& operator=(Handle&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Handle() { reset(); }
-  void reset() {
-    if (number_ >= 0) ::close(std::exchange(number_, -1));
-  }
-  [[nodiscard]] int get() const { return number_; }
-  [[nodiscard]] bool open() const { return number_ >= 0; }
-
- private:
-  int number_ = -1;
-};
+using base::Handle;
 
 bool write_all(int file, const void* data, std::size_t size) {
   const char* from = static_cast<const char*>(data);
@@ -260,27 +234,13 @@ class Writer {
         !write_all(told.get(), labels.data(), labels.size()))
       return failed("memory cannot be had", errno);
 
-    posix_spawn_file_actions_t handles;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&handles);
-    posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_addopen(&handles, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&handles, out_.get(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&handles, told.get(), kSegJob);
-    posix_spawn_file_actions_adddup2(&handles, theirs.get(), kSegMessages);
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    std::string name = "burr-seg";
-    char* arguments[] = {name.data(), nullptr};
     pid_t child = -1;
-    const int reason =
-        ::posix_spawn(&child, program.c_str(), &handles, &attributes, arguments, environ);
-    posix_spawn_file_actions_destroy(&handles);
-    posix_spawnattr_destroy(&attributes);
+    const int reason = base::start_helper(program, "burr-seg",
+                                          {{base::kNothing, STDIN_FILENO},
+                                           {out_.get(), STDOUT_FILENO},
+                                           {told.get(), kSegJob},
+                                           {theirs.get(), kSegMessages}},
+                                          child);
     if (reason != 0) return failed("burr-seg cannot be started", reason);
     child_ = child;
     return fine();
