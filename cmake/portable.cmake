@@ -40,6 +40,7 @@ if(NOT EMSCRIPTEN AND EXISTS ${BURR_GOOGLETEST}/CMakeLists.txt)
   list(TRANSFORM core_tests REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1_test.cpp")
   # bones by formula for the tests; no more of that room is needed
   add_executable(test_core ${core_tests} ${PROJECT_SOURCE_DIR}/tests/support/rt_guard.cpp
+    ${PROJECT_SOURCE_DIR}/tests/rt/lanes_test.cpp ${PROJECT_SOURCE_DIR}/tests/rt/lanes_checks_scalar.cpp
     ${PROJECT_SOURCE_DIR}/src/burr/phantom/build.cpp ${PROJECT_SOURCE_DIR}/src/burr/phantom/shapes.cpp)
   target_include_directories(test_core PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_core PRIVATE burr_core burr_options gtest_main ${CMAKE_DL_LIBS})

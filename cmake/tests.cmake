@@ -41,7 +41,10 @@ foreach(room ${rooms})
     endif()
   endif()
   if(sources)
-    add_executable(test_${room} ${sources})
+    file(GLOB kernels CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*_scalar.cpp
+      ${PROJECT_SOURCE_DIR}/tests/${room}/*_avx2.cpp ${PROJECT_SOURCE_DIR}/tests/${room}/*_avx512.cpp)
+    burr_kernels(${kernels})
+    add_executable(test_${room} ${sources} ${kernels})
     target_link_libraries(test_${room} PRIVATE burr_test_support burr_options GTest::gtest_main nlohmann_json::nlohmann_json
       ZLIB::ZLIB PkgConfig::ZSTD PkgConfig::ASSIMP PkgConfig::EPOXY PkgConfig::SDL2)
     if(room MATCHES "^(window|report|sound|devices|doctor)$")  # of the program, not of the library

@@ -11,6 +11,7 @@
 #include "burr/rt/lanes.h"
 #include "burr/tool/shape.h"
 #include "burr/tool/shape_formulas.h"
+#include "burr/tool/shape_lanes.h"
 #include "support/mesh.h"
 
 namespace burr::tool {
@@ -22,11 +23,7 @@ using test::box_mesh;
 using test::grid_shape;
 using test::turned;
 
-struct Lanes {
-  using Number = rt::lanes::Floats;
-  using Real = float;
-  static void square_root(rt::lanes::Floats& v) noexcept { rt::lanes::root(v); }
-};
+using Lanes = SixteenNumbers;
 
 struct Pair {
   const char* name;

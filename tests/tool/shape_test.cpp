@@ -13,6 +13,7 @@
 
 #include "burr/rt/lanes.h"
 #include "burr/tool/shape_formulas.h"
+#include "burr/tool/shape_lanes.h"
 
 namespace burr::tool {
 namespace {
@@ -252,12 +253,6 @@ TEST_P(EachShape, SupportBoxAndBallAreThoseOfItsSurfacePoints) {
                 (body.round && q.x() >= 0 && q.z() >= box.lo.z() + body.shape.rounding - 1e-9));
   }
 }
-
-struct SixteenNumbers {
-  using Number = rt::lanes::Floats;
-  using Real = float;
-  static void square_root(Number& v) noexcept { rt::lanes::root(v); }
-};
 
 TEST_P(EachShape, SixteenLanesAgreeWithOneNumber) {
   using rt::lanes::Floats;

@@ -1,9 +1,8 @@
 // tool/shape_formulas.h - the distances of shape.h, for one number at a time and for sixteen.
 //
-// The template argument M says with what to compute: M::Number (double, or rt::lanes::Floats), M::Real
-// (double or float) and M::square_root(Number&). Branches are choices between two values, so that
-// lanes can follow both; sums have a written order, so every lane gives the same bits on every
-// instruction set.
+// The template argument M says with what to compute: OneNumber below, or SixteenNumbers of
+// shape_lanes.h. Branches are choices between two values, so that lanes can follow both; sums have a
+// written order, so every lane gives the same bits on every instruction set.
 //
 // Everything has internal linkage: a kernel's translation unit compiles its own copy for its own
 // instruction set. Vectors go by reference, as rt/lanes.h asks.
@@ -50,11 +49,14 @@ template <class Real>
           static_cast<Real>(d.arc),    s.grid};
 }
 
-// One number at a time. A kernel's own struct has Number = rt::lanes::Floats, Real = float.
+// One number at a time.
 struct OneNumber {
   using Number = double;
   using Real = double;
   static void square_root(double& v) noexcept { v = std::sqrt(v); }
+  static double choose(bool first, double one, double other) noexcept {
+    return first ? one : other;
+  }
 };
 template <class M>
 using Num = typename M::Number;
@@ -91,16 +93,16 @@ template <class M>
 [[maybe_unused]] void from_place(const Num<M>& r, const Num<M>& z, Profile<M>& out) noexcept {
   length_of<M>(r, z, out.d);
   const auto apart = out.d > kNothing<Size<M>>;
-  out.r = apart ? r / out.d : Num<M>{} + static_cast<Size<M>>(1);
-  out.z = apart ? z / out.d : Num<M>{};
+  out.r = M::choose(apart, r / out.d, Num<M>{} + static_cast<Size<M>>(1));
+  out.z = M::choose(apart, z / out.d, Num<M>{});
 }
 
 template <class M>
 [[maybe_unused]] void capsule(const Sizes<Size<M>>& s, const Num<M>& r, const Num<M>& z,
                               Profile<M>& out) noexcept {
   const Num<M> top = Num<M>{} + s.c;
-  Num<M> on = z > top ? top : z;
-  on = on < -top ? -top : on;
+  Num<M> on = M::choose(z > top, top, z);
+  on = M::choose(on < -top, -top, on);
   from_place<M>(r, z - on, out);
 }
 
@@ -109,18 +111,18 @@ template <class M>
 [[maybe_unused]] void rectangle(const Size<M>& half_r, const Size<M>& half_z, const Num<M>& r,
                                 const Num<M>& z, Profile<M>& out) noexcept {
   const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
-  const Num<M> side = z < zero ? -one : one;
+  const Num<M> side = M::choose(z < zero, -one, one);
   const Num<M> dr = r - half_r, dz = z * side - half_z;
-  const Num<M> over_r = dr > zero ? dr : zero, over_z = dz > zero ? dz : zero;
+  const Num<M> over_r = M::choose(dr > zero, dr, zero), over_z = M::choose(dz > zero, dz, zero);
   Num<M> far;
   length_of<M>(over_r, over_z, far);
   const auto outside = far > kNothing<Size<M>>;
   const auto radial = dr > dz;
-  const Num<M> deep = radial ? dr : dz;
-  const Num<M> ir = radial ? one : zero, iz = radial ? zero : side;
-  out.d = outside ? far : deep;
-  out.r = outside ? over_r / far : ir;
-  out.z = outside ? over_z * side / far : iz;
+  const Num<M> deep = M::choose(radial, dr, dz);
+  const Num<M> ir = M::choose(radial, one, zero), iz = M::choose(radial, zero, side);
+  out.d = M::choose(outside, far, deep);
+  out.r = M::choose(outside, over_r / far, ir);
+  out.z = M::choose(outside, over_z * side / far, iz);
 }
 
 // A convex profile of a slant side from (r0, z0) on, and two flat ends: at `top` of half width
@@ -137,42 +139,44 @@ template <class M>
   // the side's outward normal is (e1, -e0)
   const Num<M> over_side = fr * s.e1 - fz * s.e0;
   Num<M> t = fr * s.e0 + fz * s.e1;
-  t = t < zero ? zero : t;
-  t = t > zero + s.length ? zero + s.length : t;
+  t = M::choose(t < zero, zero, t);
+  t = M::choose(t > zero + s.length, zero + s.length, t);
   Profile<M> side, end;
   from_place<M>(fr - t * s.e0, fz - t * s.e1, side);
   const Num<M> over_top = z - body.top, over_bottom = body.bottom - z;
   const auto upper = over_top > over_bottom;
-  const Num<M> over_end = upper ? over_top : over_bottom;
-  const Num<M> level = upper ? zero + body.top : zero + body.bottom;
-  const Num<M> width = upper ? zero + body.r_top : zero + body.r_bottom;
-  from_place<M>(r < width ? zero : r - width, z - level, end);
-  const Num<M> worst = over_side > over_end ? over_side : over_end;
+  const Num<M> over_end = M::choose(upper, over_top, over_bottom);
+  const Num<M> level = M::choose(upper, zero + body.top, zero + body.bottom);
+  const Num<M> width = M::choose(upper, zero + body.r_top, zero + body.r_bottom);
+  from_place<M>(M::choose(r < width, zero, r - width), z - level, end);
+  const Num<M> worst = M::choose(over_side > over_end, over_side, over_end);
   const auto outside = worst > kNothing<Size<M>>;
   const auto to_side = side.d < end.d;
   const auto slant_first = over_side > over_end;
-  const Num<M> up = upper ? one : -one;
-  const Num<M> ir = slant_first ? zero + s.e1 : zero, iz = slant_first ? zero - s.e0 : up;
-  const Num<M> od = to_side ? side.d : end.d, outside_r = to_side ? side.r : end.r,
-               outside_z = to_side ? side.z : end.z;
-  out.d = outside ? od : worst;
-  out.r = outside ? outside_r : ir;
-  out.z = outside ? outside_z : iz;
+  const Num<M> up = M::choose(upper, one, -one);
+  const Num<M> ir = M::choose(slant_first, zero + s.e1, zero),
+               iz = M::choose(slant_first, zero - s.e0, up);
+  const Num<M> od = M::choose(to_side, side.d, end.d),
+               outside_r = M::choose(to_side, side.r, end.r),
+               outside_z = M::choose(to_side, side.z, end.z);
+  out.d = M::choose(outside, od, worst);
+  out.r = M::choose(outside, outside_r, ir);
+  out.z = M::choose(outside, outside_z, iz);
 }
 
 template <class M>
 [[maybe_unused]] void vesica(const Sizes<Size<M>>& s, const Num<M>& r, const Num<M>& z,
                              Profile<M>& out) noexcept {
   const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
-  const Num<M> side = z < zero ? -one : one;
+  const Num<M> side = M::choose(z < zero, -one, one);
   const Num<M> beyond = z * side - s.c;
   Profile<M> tip, arc;
   from_place<M>(r, beyond * side, tip);
   from_place<M>(r + s.offset, z, arc);
   const auto at_tip = beyond * s.offset > r * s.c;
-  out.d = at_tip ? tip.d : arc.d - s.arc;
-  out.r = at_tip ? tip.r : arc.r;
-  out.z = at_tip ? tip.z : arc.z;
+  out.d = M::choose(at_tip, tip.d, arc.d - s.arc);
+  out.r = M::choose(at_tip, tip.r, arc.r);
+  out.z = M::choose(at_tip, tip.z, arc.z);
 }
 
 template <class M>
@@ -183,11 +187,11 @@ template <class M>
   from_place<M>(r - rim, z - s.b, edge);
   from_place<M>(r, z, middle);
   const Num<M> off = middle.d - s.a;
-  const Num<M> way = off < zero ? -one : one;
+  const Num<M> way = M::choose(off < zero, -one, one);
   const auto above = z * rim > r * s.b;
-  out.d = above ? edge.d : off * way;
-  out.r = above ? edge.r : middle.r * way;
-  out.z = above ? edge.z : middle.z * way;
+  out.d = M::choose(above, edge.d, off * way);
+  out.r = M::choose(above, edge.r, middle.r * way);
+  out.z = M::choose(above, edge.z, middle.z * way);
 }
 
 // The rectangle of a tube's wall, on one side of the axis.
@@ -197,7 +201,7 @@ template <class M>
   const Size<M> half = static_cast<Size<M>>(0.5);
   const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
   const Num<M> from_middle = r - half * (s.a + s.b);
-  const Num<M> side = from_middle < zero ? -one : one;
+  const Num<M> side = M::choose(from_middle < zero, -one, one);
   rectangle<M>(half * (s.a - s.b), s.c, from_middle * side, z, out);
   out.r = out.r * side;
 }
@@ -209,19 +213,20 @@ template <class M>
 [[maybe_unused]] void extrude(const Profile<M>& across, const Num<M>& side_x, const Size<M>& half,
                               const Num<M>& y, Field<M>& out) noexcept {
   const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
-  const Num<M> side = y < zero ? -one : one;
+  const Num<M> side = M::choose(y < zero, -one, one);
   const Num<M> dy = y * side - half;
-  const Num<M> over = across.d > zero ? across.d : zero, over_y = dy > zero ? dy : zero;
+  const Num<M> over = M::choose(across.d > zero, across.d, zero),
+               over_y = M::choose(dy > zero, dy, zero);
   Num<M> far;
   length_of<M>(over, over_y, far);
   const auto outside = far > kNothing<Size<M>>;
   const auto flat = across.d > dy;
-  const Num<M> in_profile = flat ? one : zero, in_y = flat ? zero : side;
-  const Num<M> p = outside ? over / far : in_profile;
-  const Num<M> deep = flat ? across.d : dy;
-  out.phi = outside ? far : deep;
+  const Num<M> in_profile = M::choose(flat, one, zero), in_y = M::choose(flat, zero, side);
+  const Num<M> p = M::choose(outside, over / far, in_profile);
+  const Num<M> deep = M::choose(flat, across.d, dy);
+  out.phi = M::choose(outside, far, deep);
   out.x = p * across.r * side_x;
-  out.y = outside ? over_y * side / far : in_y;
+  out.y = M::choose(outside, over_y * side / far, in_y);
   out.z = p * across.z;
 }
 
@@ -231,9 +236,9 @@ template <class M>
   Num<M> far = x * x + y * y + z * z + kTiny<Size<M>> * kTiny<Size<M>>;
   M::square_root(far);
   const auto apart = far > kNothing<Size<M>>;
-  out.x = apart ? x / far : Num<M>{} + static_cast<Size<M>>(1);
-  out.y = apart ? y / far : Num<M>{};
-  out.z = apart ? z / far : Num<M>{};
+  out.x = M::choose(apart, x / far, Num<M>{} + static_cast<Size<M>>(1));
+  out.y = M::choose(apart, y / far, Num<M>{});
+  out.z = M::choose(apart, z / far, Num<M>{});
   out.phi = far - s.rounding;
 }
 
@@ -294,7 +299,7 @@ template <class M>
 [[maybe_unused]] void grid_lanes(const Sizes<Size<M>>& s, const Num<M>& x, const Num<M>& y,
                                  const Num<M>& z, Field<M>& out) noexcept {
   constexpr int kLanes = static_cast<int>(sizeof(Num<M>) / sizeof(Size<M>));
-  using Whole = decltype(x < y);
+  using Whole = typename M::Whole;
   const ShapeGrid& g = *s.grid;
   const int row = g.size[0], slice = row * g.size[1];
   const int stride[3] = {1, row, slice};
@@ -304,12 +309,12 @@ template <class M>
   for (int axis = 0; axis < 3; ++axis) {
     const Num<M> last = zero + static_cast<Size<M>>(g.size[axis] - 1);
     const Num<M> wanted = at[axis] / s.a + static_cast<Size<M>>(0.5) * last;
-    Num<M> inside = wanted > zero ? wanted : zero;  // also where it is not a number
-    inside = inside < last ? inside : last;
+    Num<M> inside = M::choose(wanted > zero, wanted, zero);  // also where it is not a number
+    inside = M::choose(inside < last, inside, last);
     const Whole most = Whole{} + (g.size[axis] - 2);
-    Whole first = __builtin_convertvector(inside, Whole);
-    first = first > most ? most : first;
-    part[axis] = inside - __builtin_convertvector(first, Num<M>);
+    Whole first = M::whole(inside);
+    first = M::choose(first > most, most, first);
+    part[axis] = inside - M::number(first);
     beyond[axis] = wanted - inside;
     far += beyond[axis] * beyond[axis];
     index += first * stride[axis];
@@ -336,16 +341,16 @@ template <class M>
   Num<M> all = value * value + far;
   M::square_root(all);
   for (int axis = 0; axis < 3; ++axis) {
-    const Num<M> away = beyond[axis] != zero ? beyond[axis] : value * grown[axis];
-    grown[axis] = outside ? away : grown[axis];
+    const Num<M> away = M::choose(beyond[axis] != zero, beyond[axis], value * grown[axis]);
+    grown[axis] = M::choose(outside, away, grown[axis]);
   }
-  value = outside ? all : value;
+  value = M::choose(outside, all, value);
   Num<M> length = grown[0] * grown[0] + grown[1] * grown[1] + grown[2] * grown[2];
   M::square_root(length);
   const Whole known = length > static_cast<Size<M>>(1e-6);
-  out.x = known ? grown[0] / length : zero + static_cast<Size<M>>(1);
-  out.y = known ? grown[1] / length : zero;
-  out.z = known ? grown[2] / length : zero;
+  out.x = M::choose(known, grown[0] / length, zero + static_cast<Size<M>>(1));
+  out.y = M::choose(known, grown[1] / length, zero);
+  out.z = M::choose(known, grown[2] / length, zero);
   out.phi = value * s.a;
 }
 
@@ -379,7 +384,7 @@ template <class M>
   const Num<M> zero{}, one = zero + static_cast<Size<M>>(1);
   Profile<M> profile;
   if (kind == ShapeKind::box || kind == ShapeKind::wedge) {
-    const Num<M> side = x < zero ? -one : one;
+    const Num<M> side = M::choose(x < zero, -one, one);
     if (kind == ShapeKind::box)
       rectangle<M>(s.a, s.c, x * side, z, profile);
     else
@@ -398,7 +403,7 @@ template <class M>
     half_shell<M>(s, std::sqrt((s.a - s.b) * (s.a + s.b)), r, z, profile);
   if (kind == ShapeKind::tube) tube<M>(s, r, z, profile);
   const auto off_axis = r > kNothing<Size<M>>;
-  const Num<M> cosine = off_axis ? x / r : one, sine = off_axis ? y / r : zero;
+  const Num<M> cosine = M::choose(off_axis, x / r, one), sine = M::choose(off_axis, y / r, zero);
   out.phi = profile.d - s.rounding;
   out.x = profile.r * cosine;
   out.y = profile.r * sine;

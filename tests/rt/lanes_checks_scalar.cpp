@@ -1,0 +1,2 @@
+#define BURR_KERNEL scalar
+#include "rt/lanes_checks.inc"
