@@ -28,8 +28,8 @@ struct NearPoints {
   alignas(64) float mx[kMost + 16], my[kMost + 16], mz[kMost + 16];
   alignas(64) float rd[kMost + 16];
   // Of each 16 points that follow each other: their least distance to the part when they were last looked
-  // at, and kSteepest times the way of the part until then. While the part has not gone farther, none of
-  // them is near, and they are passed over.
+  // at, plus the way of the part until then (times the steepest slope of its distance). While the part has not
+  // gone far enough, none of them is near, and they are passed over.
   static constexpr int kGroup = 16;
   float clear[kMost / kGroup + 1];
   float way =
