@@ -382,12 +382,12 @@ Vec3 SixProxy::arm_of(int part, const Vec3& normal, const Vec3& across, double g
   const double far = far_[index(part)] + 2;
   if (tool::convex(one.shape.kind)) return across + (phi(-far) - far) * normal;
   double best = 0, least = far;
-  const bool skips = one.shape.kind == tool::ShapeKind::grid;
+  // quarters of a voxel to go for each voxel that a look is worse than the best: a distance changes by no
+  // more than the way. A grid's is linear in each cell and may change up to sqrt(3) times as fast
+  const double quarters = one.shape.kind == tool::ShapeKind::grid ? 2 : 3.9;
   for (double along = -far; along <= far;) {
     const double here = along, off = std::abs(phi(here));
-    // no look nearer than off - least can be better: a distance changes by no more than the way. A
-    // grid's is linear in each cell and may change up to sqrt(3) times as fast
-    along += skips ? 0.25 * std::max(1.0, std::floor(2 * (off - least))) : 0.25;
+    along += 0.25 * std::max(1.0, std::floor(quarters * (off - least)));
     if (off >= least) continue;
     least = off;
     best = here;
