@@ -11,7 +11,6 @@
 #include "burr/rt/lanes.h"
 #include "burr/tool/shape.h"
 #include "burr/tool/shape_formulas.h"
-#include "burr/tool/shape_lanes.h"
 #include "support/mesh.h"
 
 namespace burr::tool {
@@ -23,7 +22,7 @@ using test::box_mesh;
 using test::grid_shape;
 using test::turned;
 
-using Lanes = SixteenNumbers;
+using Lanes = rt::lanes::SixteenNumbers;
 
 struct Pair {
   const char* name;

@@ -13,7 +13,6 @@
 
 #include "burr/rt/lanes.h"
 #include "burr/tool/shape_formulas.h"
-#include "burr/tool/shape_lanes.h"
 
 namespace burr::tool {
 namespace {
@@ -266,8 +265,8 @@ TEST_P(EachShape, SixteenLanesAgreeWithOneNumber) {
       y[l] = static_cast<float>(places[l].y());
       z[l] = static_cast<float>(places[l].z());
     }
-    Field<SixteenNumbers> lanes;
-    field_of<SixteenNumbers>(body.shape.kind, sizes, x, y, z, lanes);
+    Field<rt::lanes::SixteenNumbers> lanes;
+    field_of<rt::lanes::SixteenNumbers>(body.shape.kind, sizes, x, y, z, lanes);
     for (int l = 0; l < 16; ++l) {
       const Distance one = distance(body.shape, places[l]);
       EXPECT_NEAR(static_cast<double>(lanes.phi[l]), one.phi, 3e-6);

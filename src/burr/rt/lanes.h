@@ -409,5 +409,19 @@ inline constexpr auto kPacked = [] {
 #endif
 }
 
+// For templates that are for one number or for sixteen (tool/shape_formulas.h).
+struct SixteenNumbers {
+  using Number = Floats;
+  using Real = float;
+  using Whole = Ints;
+  static void square_root(Number& v) noexcept { root(v); }
+  template <class Numbers>
+  static Numbers choose(const Whole& which, const Numbers& one, const Numbers& other) noexcept {
+    return lanes::choose(which, one, other);
+  }
+  static Whole whole(const Number& v) noexcept { return convert<Whole>(v); }
+  static Number number(const Whole& v) noexcept { return convert<Number>(v); }
+};
+
 }  // namespace
 }  // namespace burr::rt::lanes

@@ -1,7 +1,7 @@
 // tool/shape_formulas.h - the distances of shape.h, for one number at a time and for sixteen.
 //
 // The template argument M says with what to compute: OneNumber below, or SixteenNumbers of
-// shape_lanes.h. Branches are choices between two values, so that lanes can follow both; sums have a
+// rt/lanes.h. Branches are choices between two values, so that lanes can follow both; sums have a
 // written order, so every lane gives the same bits on every instruction set.
 //
 // Everything has internal linkage: a kernel's translation unit compiles its own copy for its own
