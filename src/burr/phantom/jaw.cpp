@@ -31,6 +31,7 @@ enum Id : TissueId {
   kMouthFloor
 };
 
+constexpr double kNoPulp = -3 * kMm;  // so far outside of a tooth its pulp does not matter
 constexpr double kCanalRadius = 1.5 * kMm, kNerveRadius = 1.1 * kMm, kWall = 0.7 * kMm;
 
 // Of the long jaw. The osteotomy in front of the mental foramen is a slab of kKerf that leans 8
@@ -87,7 +88,7 @@ class Jaw {
 
     s.tooth = s.pulp = -1;
     for (const Tooth& tooth : teeth_) {
-      const Vec3 q = tooth.place.inverse() * p;
+      const Vec3 q = tooth.into * p;
       if (q.norm() > 26 * mm) {
         s.tooth = std::max(s.tooth, 18 * mm - q.norm());
         continue;
@@ -95,6 +96,7 @@ class Jaw {
       const double depth = tooth.model.depth(q);
       if (depth <= s.tooth) continue;
       s.tooth = depth;
+      if (depth <= kNoPulp) continue;
       s.enamel = tooth.model.enamel(q);
       s.pulp = tooth.model.pulp(q);
     }
@@ -112,7 +114,7 @@ class Jaw {
 
   [[nodiscard]] static double depth(const Parts& s) {
     const double bone = std::min({s.hull, -s.marrow, s.nerve - kCanalRadius});
-    return std::max(bone, std::min(s.tooth, s.tooth > -3 * kMm ? -s.pulp : s.tooth));
+    return std::max(bone, std::min(s.tooth, s.tooth > kNoPulp ? -s.pulp : s.tooth));
   }
   [[nodiscard]] static double soft(const Parts& s) {
     return std::max({kNerveRadius - s.nerve, s.marrow, s.tooth > 0 ? s.pulp : s.tooth});
@@ -162,7 +164,7 @@ class Jaw {
 
  private:
   struct Tooth {
-    math::Pose place;
+    math::Pose place, into;  // of the tooth; from the jaw into the tooth
     ToothModel model;
   };
   // the ridge is lower where a tooth was lost
@@ -174,6 +176,7 @@ class Jaw {
     Tooth tooth;
     tooth.place.p = at_mm(x, y, 1.2);
     tooth.place.q = math::Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ()));
+    tooth.into = tooth.place.inverse();
     tooth.model.molar = molar;
     return tooth;
   }

@@ -48,7 +48,12 @@ std::vector<Landmark> landmarks_of_spine() {
 
 class Vertebra {
  public:
-  explicit Vertebra(const Variant& variant) : thinner_(0.5 * variant.mm("thin-pedicle", 2.4)) {}
+  // thinner: the pedicle's half width and half height, than usual [mm]
+  explicit Vertebra(const Variant& variant) : Vertebra(0.5 * variant.mm("thin-pedicle", 2.4)) {}
+  explicit Vertebra(double thinner)
+      : pedicle_{
+            cone(Pedicle::upper_front(), 4.6 - thinner, Pedicle::upper_back(), 4.8 - thinner),
+            cone(Pedicle::lower_front(), 4.6 - thinner, Pedicle::lower_back(), 4.8 - thinner)} {}
 
   struct Parts {
     double hull = 0, marrow = 0, sac = 0, roots = 0;
@@ -59,10 +64,6 @@ class Vertebra {
     Parts s;
     // left and right are equal, except for the noise
     const Vec3 q(std::abs(p.x()), p.y(), p.z());
-    const auto cone = [&](const Vec3& a, double ra, const Vec3& b, double rb) {
-      return RoundCone{a, b, ra * mm, rb * mm}.depth(q);
-    };
-
     // body: an oval drum with a waist, slightly raised rims, slightly hollow end plates
     const double waist = 1 - 0.10 * (1 - std::pow(std::min(std::abs(q.z()) / (14 * mm), 1.0), 2));
     const double round =
@@ -72,22 +73,20 @@ class Vertebra {
     double hull = carve_soft(round, 14 * mm - 1.3 * mm * middle - std::abs(q.z()), 3 * mm);
 
     // arch: pedicles, laminae, spine, transverse and joint processes
-    hull = blend(
-        hull,
-        std::max(
-            cone(Pedicle::upper_front(), 4.6 - thinner_, Pedicle::upper_back(), 4.8 - thinner_),
-            cone(Pedicle::lower_front(), 4.6 - thinner_, Pedicle::lower_back(), 4.8 - thinner_)),
-        4 * mm);
-    hull = blend(hull, cone(at_mm(15, 28.5, 3), 4.2, at_mm(3, 39.5, -5), 3.6), 4 * mm);
-    hull = blend(hull, cone(at_mm(13, 31, -5), 3.4, at_mm(2, 40.5, -9), 3.4), 4 * mm);
-    hull = blend(hull,
-                 std::max(cone(at_mm(0, 39, -3), 3.4, at_mm(0, 64, -5), 2.8),
-                          cone(at_mm(0, 39, -11), 3.2, at_mm(0, 66, -13), 3.8)),
-                 3.5 * mm);
-    hull = blend(hull, cone(at_mm(0, 52, -3), 2.4, at_mm(0, 54, -12), 2.4), 4 * mm);
-    hull = blend(hull, cone(at_mm(16, 28, 4), 4.6, at_mm(41, 34, 6), 3.0), 4 * mm);
-    hull = blend(hull, cone(at_mm(16.5, 29.5, 6), 5.0, at_mm(17.5, 30.5, 18), 4.6), 3 * mm);
-    hull = blend(hull, cone(at_mm(12.5, 36, -6), 4.8, at_mm(12.5, 36.5, -19), 4.8), 3 * mm);
+    static const RoundCone laminae[] = {cone(at_mm(15, 28.5, 3), 4.2, at_mm(3, 39.5, -5), 3.6),
+                                        cone(at_mm(13, 31, -5), 3.4, at_mm(2, 40.5, -9), 3.4)};
+    static const RoundCone upper_edge = cone(at_mm(0, 39, -3), 3.4, at_mm(0, 64, -5), 2.8),
+                           lower_edge = cone(at_mm(0, 39, -11), 3.2, at_mm(0, 66, -13), 3.8),
+                           end = cone(at_mm(0, 52, -3), 2.4, at_mm(0, 54, -12), 2.4),
+                           transverse = cone(at_mm(16, 28, 4), 4.6, at_mm(41, 34, 6), 3.0);
+    static const RoundCone joints[] = {cone(at_mm(16.5, 29.5, 6), 5.0, at_mm(17.5, 30.5, 18), 4.6),
+                                       cone(at_mm(12.5, 36, -6), 4.8, at_mm(12.5, 36.5, -19), 4.8)};
+    hull = blend(hull, std::max(pedicle_[0].depth(q), pedicle_[1].depth(q)), 4 * mm);
+    for (const RoundCone& lamina : laminae) hull = blend(hull, lamina, q, 4 * mm);
+    hull = blend(hull, std::max(upper_edge.depth(q), lower_edge.depth(q)), 3.5 * mm);
+    hull = blend(hull, end, q, 4 * mm);
+    hull = blend(hull, transverse, q, 4 * mm);
+    for (const RoundCone& joint : joints) hull = blend(hull, joint, q, 3 * mm);
     // facets: flat; the upper ones face inwards and back, the lower ones outwards and forwards
     const Vec3 upper = Vec3(-0.75, 0.66, 0.05).normalized(),
                lower = Vec3(0.8, -0.6, 0).normalized();
@@ -103,8 +102,9 @@ class Vertebra {
     s.hull = hull + 0.3 * mm * noise(p, 9 * mm, 31) + 0.08 * mm * noise(p, 2.5 * mm, 32);
 
     s.sac = ellipsoid(Vec3(q.x(), q.y(), 0), at_mm(0, 24, 0), at_mm(8.6, 6.4, 9));
-    s.roots = cone(at_mm(7.5, 23, 4), 1.7, at_mm(13, 20, -9), 1.9);
-    s.roots = std::max(s.roots, cone(at_mm(13, 20, -9), 1.9, at_mm(24, 15, -21), 2.0));
+    static const RoundCone near_root = cone(at_mm(7.5, 23, 4), 1.7, at_mm(13, 20, -9), 1.9),
+                           far_root = cone(at_mm(13, 20, -9), 1.9, at_mm(24, 15, -21), 2.0);
+    s.roots = std::max(near_root.depth(q), far_root.depth(q));
 
     // spongy inside; the shell is thicker in the arch than around the body
     const double shell =
@@ -117,7 +117,12 @@ class Vertebra {
   }
 
  private:
-  double thinner_;  // the pedicle's half width and half height, than usual [mm]
+  // radii in mm
+  static RoundCone cone(const Vec3& a, double radius_a, const Vec3& b, double radius_b) {
+    return {a, b, radius_a * kMm, radius_b * kMm};
+  }
+
+  RoundCone pedicle_[2];
 };
 
 double solid(const Vertebra::Parts& s) { return std::min(s.hull, -s.marrow); }
