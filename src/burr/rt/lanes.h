@@ -32,6 +32,15 @@ typedef std::int16_t SignedShorts __attribute__((vector_size(32), may_alias));
 
 namespace {
 
+// The same bits as something else. (emscripten's library has no std::bit_cast.)
+template <class To, class From>
+[[maybe_unused, gnu::always_inline]] inline To bits_as(const From& from) noexcept {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  std::memcpy(&to, &from, sizeof to);
+  return to;
+}
+
 template <class Vector, class Number>
 [[maybe_unused]] inline void load(const Number* from, Vector& to) noexcept {
   std::memcpy(&to, from, sizeof to);
@@ -233,9 +242,9 @@ namespace {
   unsigned bits = 0;
   each_register([&](int r) {
 #ifdef __AVX2__
-    const int some = _mm256_movemask_ps(std::bit_cast<__m256>(lanes.part[r]));
+    const int some = _mm256_movemask_ps(bits_as<__m256>(lanes.part[r]));
 #else
-    const int some = _mm_movemask_ps(std::bit_cast<__m128>(lanes.part[r]));
+    const int some = _mm_movemask_ps(bits_as<__m128>(lanes.part[r]));
 #endif
     bits |= static_cast<unsigned>(some) << kOfRegister * r;
   });
@@ -294,18 +303,18 @@ namespace {
   const __m512i wide = _mm512_maskz_cvtepu16_epi32(kAll, v);
   std::memcpy(&to, &wide, sizeof to);
 #elif defined __AVX2__
-  const auto v = std::bit_cast<__m256i>(from);
-  to.part[0] = std::bit_cast<Ints::Register>(_mm256_cvtepu16_epi32(_mm256_castsi256_si128(v)));
-  to.part[1] = std::bit_cast<Ints::Register>(_mm256_cvtepu16_epi32(_mm256_extracti128_si256(v, 1)));
+  const auto v = bits_as<__m256i>(from);
+  to.part[0] = bits_as<Ints::Register>(_mm256_cvtepu16_epi32(_mm256_castsi256_si128(v)));
+  to.part[1] = bits_as<Ints::Register>(_mm256_cvtepu16_epi32(_mm256_extracti128_si256(v, 1)));
 #else
   const EightShorts none = {};
   EightShorts half[2];
   std::memcpy(half, &from, sizeof half);
   for (int h = 0; h < 2; ++h) {  // low halves first, as memory has them on all our processors
-    to.part[2 * h] = std::bit_cast<Ints::Register>(
-        __builtin_shufflevector(half[h], none, 0, 8, 1, 9, 2, 10, 3, 11));
-    to.part[2 * h + 1] = std::bit_cast<Ints::Register>(
-        __builtin_shufflevector(half[h], none, 4, 12, 5, 13, 6, 14, 7, 15));
+    to.part[2 * h] =
+        bits_as<Ints::Register>(__builtin_shufflevector(half[h], none, 0, 8, 1, 9, 2, 10, 3, 11));
+    to.part[2 * h + 1] =
+        bits_as<Ints::Register>(__builtin_shufflevector(half[h], none, 4, 12, 5, 13, 6, 14, 7, 15));
   }
 #endif
 }
@@ -316,9 +325,9 @@ namespace {
   const __m512i wide = _mm512_maskz_cvtepi16_epi32(kAll, v);
   std::memcpy(&to, &wide, sizeof to);
 #elif defined __AVX2__
-  const auto v = std::bit_cast<__m256i>(from);
-  to.part[0] = std::bit_cast<Ints::Register>(_mm256_cvtepi16_epi32(_mm256_castsi256_si128(v)));
-  to.part[1] = std::bit_cast<Ints::Register>(_mm256_cvtepi16_epi32(_mm256_extracti128_si256(v, 1)));
+  const auto v = bits_as<__m256i>(from);
+  to.part[0] = bits_as<Ints::Register>(_mm256_cvtepi16_epi32(_mm256_castsi256_si128(v)));
+  to.part[1] = bits_as<Ints::Register>(_mm256_cvtepi16_epi32(_mm256_extracti128_si256(v, 1)));
 #else
   Shorts raw;
   std::memcpy(&raw, &from, sizeof raw);
@@ -336,15 +345,15 @@ template <class Narrow>
 #elif defined __AVX2__
   const Ints low = from & 0xFFFF;
   const __m256i packed =
-      _mm256_packus_epi32(std::bit_cast<__m256i>(low.part[0]), std::bit_cast<__m256i>(low.part[1]));
+      _mm256_packus_epi32(bits_as<__m256i>(low.part[0]), bits_as<__m256i>(low.part[1]));
   const __m256i in_order = _mm256_permute4x64_epi64(packed, 0xD8);  // packs go within halves
   std::memcpy(&to, &in_order, sizeof to);
 #else
   EightShorts half[2];
   for (int h = 0; h < 2; ++h)
-    half[h] = __builtin_shufflevector(std::bit_cast<EightShorts>(from.part[2 * h]),
-                                      std::bit_cast<EightShorts>(from.part[2 * h + 1]), 0, 2, 4, 6,
-                                      8, 10, 12, 14);
+    half[h] = __builtin_shufflevector(bits_as<EightShorts>(from.part[2 * h]),
+                                      bits_as<EightShorts>(from.part[2 * h + 1]), 0, 2, 4, 6, 8, 10,
+                                      12, 14);
   std::memcpy(&to, half, sizeof to);
 #endif
 }
@@ -398,7 +407,7 @@ inline constexpr auto kPacked = [] {
     __m128i order;
     order = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kPacked[some].data()));
     const __m256 packed =
-        _mm256_permutevar8x32_ps(std::bit_cast<__m256>(from.part[r]), _mm256_cvtepu8_epi32(order));
+        _mm256_permutevar8x32_ps(bits_as<__m256>(from.part[r]), _mm256_cvtepu8_epi32(order));
     _mm256_storeu_ps(to, packed);
     to += std::popcount(some);
   });
