@@ -15,6 +15,7 @@
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/rt/simd.h"
+#include "burr/scenario/rack.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
 #include "support/mesh.h"
@@ -169,8 +170,38 @@ TEST_P(CarveShapes, AFlameLeavesItsOwnHollow) {
   EXPECT_NEAR(before - work.volume(), want, 0.015 * want);
 }
 
+TEST_P(CarveShapes, APlungedDrillLeavesAHoleAsWideAsItIs) {
+  // the twist drill of the rack goes 4 mm deep into a slab, turning, while the slab lies turned to the grid
+  const scenario::RackTool* drill = scenario::built_in_rack().find("twist-drill");
+  ASSERT_NE(drill, nullptr);
+  const Vec3 top = Vec3(0.1, -0.2, 3) * kMm, up = kTurned * Vec3::UnitZ();
+  Work work(phantom::slab(up, top), GetParam(), 8);
+  const double before = work.volume(), depth = 4 * kMm;
+  // the end of its point lies this much below its origin
+  double low = 0;
+  for (int p = 0; p < drill->tool.count; ++p) {
+    const tool::Part& part = drill->tool.parts[static_cast<std::size_t>(p)];
+    if (part.role == Role::cuts)
+      low = std::max(low, tool::support(part.shape, -Vec3::UnitZ()) - part.tool_from_part.p.z());
+  }
+  // by steps as small as those of a hand; at the end it turns on the spot, for its middle cuts more slowly than its rim
+  constexpr int kSteps = 800, kTurnsOn = 40;
+  for (int n = 0; n < kSteps + kTurnsOn; ++n) {
+    const double deep = depth * std::min(1.0, (n + 1.0) / kSteps);
+    work.cut_all(drill->tool, {top + (low - deep) * up, kTurned}, Sweep::turning);
+  }
+  const double r = 1 * kMm, chisel = 0.2 * kMm, cone = 0.462 * kMm;
+  const double want =
+      M_PI * r * r * (depth - cone) + M_PI / 3 * cone * (r * r + r * chisel + chisel * chisel);
+  EXPECT_NEAR(before - work.volume(), want, 0.015 * want);
+}
+
 TEST_P(CarveShapes, EveryKindTakesItsOwnVolume) {
   const double mm = kMm;
+  // a sheet of half thickness t about a sphere of radius a, up to the height b, and half a ring around its rim
+  const double a = 3, b = 0.5, t = 1, rim = std::sqrt(a * a - b * b);
+  const double spoon = 2.0 / 3 * M_PI * (1 + b / a) * (std::pow(a + t, 3) - std::pow(a - t, 3)) +
+                       M_PI * M_PI * t * t * (rim - b / a * 4 * t / (3 * M_PI));
   const struct {
     Shape shape;
     double volume;  // [mm^3], of the core with sharp edges
@@ -181,6 +212,8 @@ TEST_P(CarveShapes, EveryKindTakesItsOwnVolume) {
       {{ShapeKind::frustum, 1 * mm, 2.5 * mm, 3 * mm, 0}, M_PI * 6 / 3 * (1 + 2.5 + 6.25)},
       {{ShapeKind::box, 1.5 * mm, 2 * mm, 2.5 * mm, 0}, 8 * 1.5 * 2 * 2.5},
       {{ShapeKind::wedge, 1.5 * mm, 2 * mm, 6 * mm, 0}, 1.5 * 6 * 4},
+      {{ShapeKind::tube, 3 * mm, 1 * mm, 2.5 * mm, 0}, M_PI * (9 - 1) * 5},
+      {{ShapeKind::half_shell, a * mm, b * mm, 0, t * mm}, spoon},
   };
   for (const auto& kind : kinds) {
     Work work(phantom::slab({0, 0, 1}, {0, 0, 9 * mm}), GetParam(), 10);

@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "burr/base/progress.h"
+#include "burr/haptics/touch_method.h"
 #include "burr/phantom/shapes.h"
 #include "burr/record/course.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
+#include "burr/rt/flags.h"
 #include "burr/scenario/open_lesson.h"
 #include "burr/scoring/score.h"
 #include "burr/scoring/step_order.h"
@@ -108,6 +110,11 @@ id = "coolant"
 part = "process"
 measure = "coolant"
 say = "Cut with coolant."
+[[item]]
+id = "shaft"
+part = "process"
+measure = "shaft"
+say = "Keep the shaft off the bone."
 )";
 
 // How the session differs from good work.
@@ -121,6 +128,8 @@ struct Fault {
   double stroke = 6 * kMm;  // far from the nerve, along y
   bool irrigated = true;
   bool on_stone = false;  // in place of the first 2 s
+  bool shaft_touches = true;
+  double shaft_rests = 0.9;  // how long it rested on bone [s]
 };
 
 // 2 s far from the nerve with 1 N, then 2 s near it.
@@ -157,10 +166,13 @@ class Recorded : public ::testing::Test {
     record::SessionInfo info;
     info.volume = record::volume_info(*bones_.before);
     info.rate_hz = metrics::test::kRate;
+    info.numbers["touch_method"] = static_cast<double>(
+        fault.shaft_touches ? haptics::Method::shaft : haptics::Method::constraint);
     record::Recorder recorder(metrics::test::kRate);
     EXPECT_TRUE(recorder.start(folder / "s.mcap", info, nullptr).ok());
-    for (const tick::TickRow& row :
-         metrics::test::rows_of(4, [&](double t) { return at(t, fault); })) {
+    for (tick::TickRow& row : metrics::test::rows_of(4, [&](double t) { return at(t, fault); })) {
+      if (static_cast<double>(row.tick) < fault.shaft_rests * metrics::test::kRate)
+        row.contact.flags |= rt::kFlagShaft;
       recorder.wait_for_room();
       EXPECT_TRUE(recorder.ticks().push(row));
     }
@@ -241,6 +253,16 @@ TEST_F(Recorded, ATurningBurrOnTheStoneLosesIt) {
   expect_lost(touched, "stone.untouched");
   ASSERT_TRUE(touched.outcomes[2].tick);
   EXPECT_LT(*touched.outcomes[2].tick, 2000U);
+}
+
+TEST_F(Recorded, AShaftThatRestsOnBoneTooLongLosesIt) {
+  const Score leaned = score_of({.shaft_rests = 1.2});
+  expect_lost(leaned, "shaft");
+  EXPECT_NEAR(leaned.outcomes.back().value.value_or(0), 1.2, 1e-3);
+  // where it did not touch, nobody knows
+  const Score unfelt = score_of({.shaft_touches = false, .shaft_rests = 0});
+  EXPECT_EQ(unfelt.outcomes.back().verdict, Verdict::not_assessable);
+  EXPECT_DOUBLE_EQ(unfelt.process.points.value_or(-1), 100);
 }
 
 TEST_F(Recorded, AWrongOrderLosesTheOrder) {

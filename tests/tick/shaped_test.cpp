@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include "burr/device/replayed_hand.h"
 #include "burr/phantom/build.h"
@@ -198,6 +199,32 @@ TEST(RackInASession, ATurningToolThatStandsAndAStruckOneWithoutABlowCutNothing) 
     EXPECT_GT(bench.row.contact.force.norm(), 0.5) << name;
     EXPECT_EQ(bench.row.ledger.asked, 0) << name;
   }
+}
+
+// The mallet strikes when the pedal goes down and every half second while it stays down. Each blow spends its energy
+// within 10 ms, all of it on the bone that is in front of the edge, and nothing between two blows.
+TEST(RackInASession, ABlowSpendsItsEnergyOnceAndAgainEveryHalfSecond) {
+  const tool::ShapedTool osteotome = of_rack("osteotome");
+  Bench bench(phantom::slab(), with_tool(osteotome));
+  const Pose pressed{Vec3(0, 0, -1 * kMm), Quat::Identity()};
+  for (int n = 0; n < 300; ++n) bench.at({Vec3(0, 0, (2 - 0.01 * n) * kMm), Quat::Identity()}, 0);
+  ASSERT_EQ(bench.row.ledger.energy, 0);
+  const double blow = osteotome.cutter.blow_j;
+  std::vector<int> ticks;  // in which it cut, but for what rounding leaves of a blow
+  for (int n = 0; n < 1200; ++n) {
+    const double before = bench.row.ledger.energy;
+    bench.at(pressed, 1);
+    if (bench.row.ledger.energy > before + 1e-9 * blow) ticks.push_back(n);
+  }
+  ASSERT_EQ(ticks.size(), 30U) << "three blows of ten ticks";
+  for (std::size_t n = 0; n < ticks.size(); ++n)
+    EXPECT_NEAR(ticks[n], 500 * static_cast<int>(n / 10) + static_cast<int>(n % 10), 1);
+  EXPECT_NEAR(bench.row.ledger.energy, 3 * blow, 1e-9);
+  EXPECT_GT(bench.row.ledger.removed, 0.1e-9);
+  // the pedal up and down again is a blow at once
+  for (int n = 0; n < 5; ++n) bench.at(pressed, 0);
+  for (int n = 0; n < 12; ++n) bench.at(pressed, 1);
+  EXPECT_NEAR(bench.row.ledger.energy, 4 * blow, 1e-9);
 }
 
 // A shaft that turns about x and lies on bone: clockwise seen from the hand its lowest place runs along -y,
