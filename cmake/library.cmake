@@ -122,11 +122,20 @@ endif()
 set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/burr/base/helper_program.cpp APPEND PROPERTY
   COMPILE_DEFINITIONS BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 burr_common_headers(burr_files <fmt/format.h>)
-foreach(part burr_session burr_workshop burr_device_crtk burr_device_haply burr_device_forcedimension burr_device_openhaptics
-    burr_device_polhem)
+foreach(part burr_render_gl burr_workshop burr_device_haply)
+  burr_glue_for_sanitizers(${part})
+endforeach()
+foreach(part burr_session burr_device_crtk burr_device_forcedimension burr_device_openhaptics burr_device_polhem)
   burr_common_headers(${part} REUSE_FROM burr_files)  # the same options, so one set of headers for all
 endforeach()
 burr_common_headers(burr_render_gl <fmt/format.h>)
+foreach(part burr_workshop burr_device_haply)
+  if(BURR_SANITIZE)  # other options
+    burr_common_headers(${part} <fmt/format.h>)
+  else()
+    burr_common_headers(${part} REUSE_FROM burr_files)
+  endif()
+endforeach()
 
 add_library(burr SHARED)
 target_link_libraries(burr PUBLIC burr_core PRIVATE $<BUILD_INTERFACE:burr_options>)
@@ -158,6 +167,9 @@ burr_common_headers(burr_school <fmt/format.h>)
 add_library(burr_dataset STATIC ${dataset_sources})
 target_link_libraries(burr_dataset PUBLIC burr PRIVATE burr_options fmt::fmt PkgConfig::HDF5)
 burr_common_headers(burr_dataset <fmt/format.h>)
+foreach(part burr_serve burr_school burr_lrs)
+  burr_glue_for_sanitizers(${part})
+endforeach()
 
 # what the built-in bones are shaped by (program.cmake)
 file(GLOB BURR_PHANTOMS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/phantom/*)

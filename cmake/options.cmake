@@ -22,6 +22,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(burr_options INTERFACE -fno-semantic-interposition)
   # g++ 12 gives false warnings in optimised Eigen and std::string code (PR 105562, 105651)
   target_compile_options(burr_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict)
+  # g++ looks for memory that it no longer needs each time its heap has grown by a share of itself: a tenth of the time
+  # of a build. Without this a large source takes 1.3 GB instead of 1.1 GB.
+  target_compile_options(burr_options INTERFACE --param=ggc-min-heapsize=2000000)
 endif()
 # burr_common_headers(TARGET [HEADER...] or REUSE_FROM OTHER): headers parsed once instead of once a
 # file, which saves a third of the time of a build. The builds for other processors have none, so they
@@ -78,11 +81,17 @@ function(burr_reads_files)
 endfunction()
 
 # burr_glue(TARGET): code that only calls the library, which does the slow work. These options save
-# a sixth to two fifths of its compile time.
+# a sixth to two fifths of its compile time; with sanitizers, up to two thirds.
 function(burr_glue target)
-  if(BURR_WARNINGS_ONLY)  # nobody runs it
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
+  if(BURR_SANITIZE)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
   else()
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endfunction()
+# burr_glue_for_sanitizers(TARGET): a part of the library of which no tick and no large volume waits
+function(burr_glue_for_sanitizers target)
+  if(BURR_SANITIZE)
+    burr_glue(${target})
   endif()
 endfunction()

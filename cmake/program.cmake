@@ -31,9 +31,6 @@ if(BURR_APP)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
     burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp> ${ARGN})
     burr_glue(${target})
-    if(BURR_WARNINGS_ONLY)
-      target_compile_options(${target} PRIVATE -O0)
-    endif()
   endfunction()
 
   # the parts that tests use as well, compiled once: the window, the report, the doctor, and what they need
@@ -51,7 +48,8 @@ if(BURR_APP)
   set_target_properties(burr_program PROPERTIES OUTPUT_NAME burr RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
   burr_of_program(burr_program <CLI/CLI.hpp>)
   target_link_libraries(burr_program PRIVATE burr_app)
-  if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ compiles too
+  if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ reads too; it writes no code for them
+    set_source_files_properties(${BURR_APP} ${dataset_sources} PROPERTIES COMPILE_OPTIONS -fsyntax-only)
     add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program> $<TARGET_OBJECTS:burr_dataset>)
   endif()
   if(NOT BURR_WARNINGS_ONLY)  # it contains the reference code of `burr bench tick`, compiled like

@@ -18,17 +18,20 @@ file(GLOB rooms CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/tests ${PROJECT
 # ThreadSanitizer tests only what has threads (cmake/checks.cmake), AddressSanitizer not pure
 # arithmetic
 set(with_threads "tests/(rt|device)/|(window/window|window/pages|sound/voice|sound/speaker|volume/bone|surface/mesher|surface/worker|record/recorder|sim/threads)_test.cpp$")
-# Late ticks release the force of a hand at the window, so nothing else may run beside such a test. The groups of
-# the room `window` named here open no session in real time: they passed three times in a row on two cores with a load
-# of 16. ImportWindow begins sessions, but looks only at what they began with; two copies of it at once passed with the
-# same load. Replay plays recordings: three copies of each of its tests at once passed on two cores with a load of 12 to 20.
-# Not so ReplayByMouse, where two tests waited for 120 s in vain, and FilmFiles, where a film had not begun after 2 s.
+# Late ticks release the force of a hand at the window, so no two such tests run beside each other, and at most one other
+# test beside one: all 158 passed with two compilers beside them on two cores. The groups of the room `window` named here
+# open no session in real time: they passed three times in a row on two cores with a load of 16. ImportWindow begins
+# sessions, but looks only at what they began with; two copies of it at once passed with the same load. Replay plays
+# recordings: three copies of each of its tests at once passed on two cores with a load of 12 to 20. Not so ReplayByMouse,
+# where two tests waited for 120 s in vain, and FilmFiles, where a film had not begun after 2 s.
 # Tests of devices in real time mostly wait, and use a fifth of a core: they run beside tests of other rooms, but not
 # beside each other. On two cores with a load of 9 all of them passed, slowed down by a sanitizer. They start early (COST),
 # so that at the end no core waits for them.
+include(ProcessorCount)
+ProcessorCount(cores)
 set(alone_but_window Cap Grip Tools/Rack RackOfASession Directions ExportPieces ExportRequest Film Greys HandPlane Hands ImportDoubts ImportWindow LabelTable Measuring Memory MirrorWords Planes Steps Technique
   Bones/Hover HoverHand TypedPath PrebuiltPhantom Preview PrintedKeys Questions RateWindow Region Replay Scores StatusLine Words Work SavedViewsFile SettingsFile)
-set(manner_window RUN_SERIAL TRUE)
+set(manner_window RESOURCE_LOCK window PROCESSORS ${cores})
 set(manner_device RESOURCE_LOCK clock COST 45)
 set(alone_but_device OmegaTest MappedHand HaplyMessage CrtkNames CrtkReading PolhemLine PolhemPorts ListingTest TouchTest
   InverseTest.OfMany* PolhemTest.OfMany* InverseTest.AThousand* PolhemTest.AThousand* LeaderTest.AThousand*)

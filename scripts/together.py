@@ -3,15 +3,21 @@
 
     scripts/together.py FOLDER TARGET < SOURCES      writes FOLDER/TARGET_N.cpp; prints these and the sources that stay alone
 
-Most of the time of a build goes into templates of the C++ library and of Eigen, once for each source. Apart stay sources of
-which one has a name of its own (in a namespace without a name) that the other uses for something else, and sources that leave
-a macro defined.
+Most of the time of a build goes into templates of the C++ library and of Eigen, once for each source. A source's own names
+(in a namespace without a name) get an ending by macros, so that two sources may use the same name. Where a macro would change
+something else, the name stays as it is, and a source that uses it for something else stays apart. So do sources that leave a
+macro defined.
 """
 import dataclasses
+import functools
 import pathlib
 import re
 import sys
 
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+FOLDERS = [ROOT / "src", ROOT / "apps" / "burr", ROOT / "tests", ROOT]  # where an #include looks
+KEYWORDS = set("auto bool case char class const constexpr default double else enum false float for if inline int long namespace return short"
+               " signed static static_assert struct switch template this true typedef union unsigned using void while".split())
 MOST_BYTES = 90_000  # of a group; a larger one keeps one processor busy at the end while the other waits
 
 
@@ -32,8 +38,13 @@ class Names:
             getattr(self, field.name).update(getattr(other, field.name))
 
 
+def without_raw_strings(text):
+    return re.sub(r'R"(\w*)\((?:.|\n)*?\)\1"', '""', text)
+
+
 def names(text):
     """What a source calls its own, and the names that it uses. The text must be formatted as by clang-format."""
+    text = without_raw_strings(text)
     code = re.sub(r"//.*|\"(?:[^\"\\]|\\.)*\"", "", text)
     found = Names(words=set(re.findall(r"(?<![\w.:>])[A-Za-z_]\w*|(?<=[^-]>)[A-Za-z_]\w*", code)))
     own = False
@@ -42,7 +53,7 @@ def names(text):
             own = True
         elif line == "}  // namespace":
             own = False
-        if not re.match(r"[A-Za-z\[]", line) or re.match(r"using namespace|namespace|return|TEST|(public|protected|private|default)\b", line):
+        if not re.match(r"[A-Za-z\[]", line) or re.match(r"using namespace|namespace|return|static_assert|TEST|(public|protected|private|default)\b", line):
             continue
         head = re.split(r"[({=;]", re.sub(r"^template *<.*?> *(?=\w)", "", line), maxsplit=1)[0]
         last = re.search(r"(?<![\w:])(\w+)(?:\[\w*\])* *$", head)
@@ -56,6 +67,72 @@ def names(text):
             found.others.update(re.findall(r"(\w+)(?:\[\w*\])* *=(?!=)", line))  # several in one line
         (found.functions if a_function else found.others).update(name)
     return found
+
+
+@functools.cache
+def header_of(name):
+    """Functions and external variables that a header of the project declares, and headers that it includes; of another header nothing."""
+    for folder in FOLDERS:
+        if (folder / name).is_file():
+            text = (folder / name).read_text(errors="replace")
+            declared = re.findall(r"^[A-Za-z\[][^(=\n]*?(\w+)\(|^extern .*?(\w+)(?:\[\w*\])*;", text, re.M)
+            return {name for pair in declared for name in pair}, re.findall(r'^#include "(.*)"', text, re.M)
+    return [], []
+
+
+def declared_in_headers(text):
+    """The functions and external variables that its headers declare, and those that these include."""
+    found, seen, next_ones = set(), set(), re.findall(r'^#include "(.*)"', text, re.M)
+    while next_ones:
+        name = next_ones.pop()
+        if name not in seen:
+            seen.add(name)
+            functions, more = header_of(name)
+            found.update(functions)
+            next_ones.extend(more)
+    return found
+
+
+def gets_an_ending(text, own):
+    """Which of a source's own names a macro may change: those that mean one thing wherever they stand.
+
+    Not: a name of a member too, or of something in a namespace; of what a header declares; in a macro; in the name of a test.
+    """
+    code = re.sub(r"//.*|\"(?:[^\"\\]|\\.)*\"", "", without_raw_strings(text))
+    other = set(re.findall(r"(?:(?<!\.)\.|->|::) *~?(\w+)", code)) | own.functions & set(re.findall(r"(\w+)::", code))
+    for line in re.findall(r"^ *#(?:.*\\\n)*.*|^(?:[A-Z_]*TEST[A-Z_]*|INSTANTIATE\w*|MATCHER\w*)\(.*(?:\n .*)?", code, re.M):
+        other.update(re.findall(r"\w+", line))
+    other.update(name for name in own.functions | own.others if len(name) < 3 or name in KEYWORDS)
+    return (own.functions | own.others) - other - declared_in_headers(text)
+
+
+def headers(file, text):
+    """The lines that include a header, but those on a condition, and headers that say something else each time."""
+    depth, found = 0, []
+    for line in text.splitlines():
+        depth += bool(re.match(r" *# *if", line)) - bool(re.match(r" *# *endif", line))
+        line = re.match(r'#include (<[^>]+>|"[^"]+\.h")', line) if depth == 0 else None
+        if line and line[1].startswith("<"):
+            found.append(line[0])
+        elif line:
+            places = [folder / line[1].strip('"') for folder in (file.parent, *FOLDERS)]
+            place = next((place for place in places if place.is_file()), None)
+            if place and re.search("^#pragma once$", place.read_text(errors="replace"), re.M):
+                found.append(f'#include "{place}"')
+    return found
+
+
+def unit(files):
+    """The source that includes them."""
+    texts = [file.read_text(errors="replace") for file in files]
+    first = dict.fromkeys(line for file, text in zip(files, texts) for line in headers(file, text))  # macros must not change what a header says
+    said = "".join(f"{line}\n" for line in first)
+    for n, (file, text) in enumerate(zip(files, texts)):
+        own = sorted(gets_an_ending(text, names(text)))
+        said += "".join(f"#define {name} {name}_of_{n}\n" for name in own)
+        said += f'#include "{file}"\n'
+        said += "".join(f"#undef {name}\n" for name in own)
+    return said
 
 
 def leaves_a_macro(text):
@@ -72,6 +149,9 @@ def groups(files, most_bytes=MOST_BYTES):
             alone.append([file])
             continue
         mine = names(text)
+        ending = gets_an_ending(text, mine)
+        for those in (mine.functions, mine.others, mine.words):
+            those -= ending
         for group in made:
             if group[2] + len(text) <= most_bytes and not group[1].clash(mine):
                 break
@@ -91,11 +171,10 @@ def main():
         if len(files) == 1:
             print(files[0])
             continue
-        unit = folder / f"{target}_{n}.cpp"
-        text = "".join(f'#include "{file}"\n' for file in files)
-        if not unit.exists() or unit.read_text() != text:
-            unit.write_text(text)
-        print(unit)
+        source, text = folder / f"{target}_{n}.cpp", unit(files)
+        if not source.exists() or source.read_text() != text:
+            source.write_text(text)
+        print(source)
 
 
 if __name__ == "__main__":

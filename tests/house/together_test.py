@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """scripts/together.py keeps sources apart that cannot be compiled as one, puts the others together, and loses none."""
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "together.py"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "scripts" / "together.py"
 
 
 def groups(**texts):
@@ -23,7 +25,9 @@ def groups(**texts):
             unit = pathlib.Path(line)
             names = [unit.stem]
             if unit.parent.name == "out":
-                names = [pathlib.Path(include.split('"')[1]).stem for include in unit.read_text().splitlines()]
+                names = [pathlib.Path(name).stem for name in re.findall(r'^#include "(.*\.cpp)"$', unit.read_text(), re.M)]
+                subprocess.run(["c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wshadow", "-Werror", "-Wno-unused", "-I", ROOT / "src", unit],
+                               check=True)  # what is put together compiles
             made.append(sorted(names))
         return sorted(made)
 
@@ -40,23 +44,38 @@ class Together(unittest.TestCase):
         self.assertEqual(groups(a=own("int one() { return 1; }"), b=own("int two() { return 2; }")), TOGETHER)
 
     def test_the_same_function(self):
-        self.assertEqual(groups(a=own("int one() { return 1; }"), b=own("double one(int) { return 1; }")), APART)
-        self.assertEqual(groups(a=own("int one() { return 1; }"), b="int one(int n) { return n; }\n"), APART)
+        self.assertEqual(groups(a=own("int one() { return 1; }"), b=own("double one(int) { return 1; }")), TOGETHER)
+        self.assertEqual(groups(a=own("int one() { return 1; }"), b="int one(int n) { return n; }\n"), TOGETHER)
 
     def test_the_same_type_constant_or_alias(self):
-        self.assertEqual(groups(a=own("struct Row {};"), b=own("class Row {};")), APART)
-        self.assertEqual(groups(a=own("enum class Kind { a };"), b=own("struct Kind {};")), APART)
-        self.assertEqual(groups(a=own("constexpr double kNear = 1, kFar = 2;"), b=own("constexpr int kFar = 3;")), APART)
-        self.assertEqual(groups(a=own("using Clock = int;"), b=own("using Clock = long;")), APART)
+        self.assertEqual(groups(a=own("struct Row {};"), b=own("class Row {};")), TOGETHER)
+        self.assertEqual(groups(a=own("enum class Kind { a };"), b=own("struct Kind {};")), TOGETHER)
+        self.assertEqual(groups(a=own("constexpr double kNear = 1, kFar = 2;"), b=own("constexpr int kFar = 3;")), TOGETHER)
+        self.assertEqual(groups(a=own("using Clock = int;"), b=own("using Clock = long;")), TOGETHER)
 
     def test_a_local_name_that_would_hide_one(self):
-        self.assertEqual(groups(a=own("constexpr int kFar = 1;"), b="int f() {\n  const int kFar = 2;\n  return kFar;\n}\n"), APART)
+        self.assertEqual(groups(a=own("constexpr int kFar = 1;"), b="int f() {\n  const int kFar = 2;\n  return kFar;\n}\n"), TOGETHER)
+
+    def test_a_name_that_a_macro_must_not_change(self):
+        one = own("int one() { return 1; }")
+        member = "struct T {\n  int one;\n};\nint f(T t) { return t.one; }\n"
+        self.assertEqual(groups(a=one + member, b=one), TOGETHER)  # it is enough that the other's changes
+        self.assertEqual(groups(a=one + member, b=one + member.replace("T", "S")), APART)
+        a_macro = "#define SAY one()\n#undef SAY\n"
+        self.assertEqual(groups(a=one + a_macro, b=one + a_macro), APART)
+        fixture = own("class Fix {};\nTEST_F(Fix, works) {\n}\n")
+        self.assertEqual(groups(a=fixture, b=fixture), APART)
+        overload = '#include "burr/base/trimmed.h"\n' + own("int trimmed(int n) { return n; }")
+        self.assertEqual(groups(a=overload, b=overload), APART)
+
+    def test_headers_keep_their_names(self):
+        self.assertEqual(groups(a=own("int size() { return 1; }"), b="#include <vector>\n" + own("int size() { return 2; }")), TOGETHER)
 
     def test_members_qualified_names_comments_and_texts_are_no_clash(self):
-        self.assertEqual(groups(a=own("struct Row {};"), b='int f(T t) { return t.Row + t->Row + X::Row; }  // Row "Row"\n'), TOGETHER)
+        self.assertEqual(groups(a=own("struct Row {};"), b='template <class X, class T>\nint f(T t) { return t.Row + t->Row + X::Row; }  // Row "Row"\n'), TOGETHER)
 
     def test_a_fixture_is_not_taken_for_its_base(self):
-        self.assertEqual(groups(a=own("class One : public Window {};"), b=own("class Two : public Window {};")), TOGETHER)
+        self.assertEqual(groups(a="class Window {};\n" + own("class One : public Window {};"), b=own("class Two : public Window {};")), TOGETHER)
 
     def test_a_macro_that_stays(self):
         self.assertEqual(groups(a="#define M 1\n", b="int b;\n"), APART)

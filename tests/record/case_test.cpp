@@ -78,7 +78,7 @@ TEST(RecordedCase, TheHashIsFnv1aOfTheText) {
 TEST(RecordedCase, AChangeIsNoticedWhereTheFileIsOpened) {
   const auto work = scenario::read_case("temporal-bone");
   ASSERT_TRUE(work);
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const auto notices = [&](const SessionInfo& info) {
     const std::string path = folder / "s.mcap";
     Recorder recorder(1000);

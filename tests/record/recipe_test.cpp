@@ -36,7 +36,7 @@ Recipe any_recipe(test::Random& random) {
 TEST(RecordedRecipe, ComesBackToTheBitWithoutPaths) {
   BURR_SEEDED(random, 31);
   const auto bone = test::any_bone(random);
-  const test::Folder folder;
+  const burr::test::Folder folder;
   for (int n = 0; n < 40; ++n) {
     SessionInfo info = test::info_of(*bone, random);
     info.volume.recipe = scenario::without_paths(any_recipe(random));

@@ -15,7 +15,7 @@ namespace burr::record {
 namespace {
 
 namespace fs = std::filesystem;
-using test::Folder;
+using burr::test::Folder;
 
 VolumeInfo wanted(std::uint64_t print, std::uint64_t content) {
   VolumeInfo info;

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 class MadeUpMachine : public testing::Test {
  protected:
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const fs::path root = folder.path();
   void say(const std::string& file, const std::string& text) const {
     fs::create_directories((root / file).parent_path());

@@ -359,7 +359,7 @@ TEST(HeldPiece, GivesTheSameBitsOnEveryInstructionSet) {
 // Lifted, carried out of the volume, refused there and left; lifted, carried, put down: recorded and
 // replayed.
 TEST(HeldPiece, ARecordingReplaysToTheBit) {
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string path = (folder.path() / "held.mcap").string();
   std::uint64_t at_end = 0;
   NoProgress quiet;

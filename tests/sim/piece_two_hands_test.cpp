@@ -373,7 +373,7 @@ TEST(PieceTwoHands, GivesTheSameBitsOnEveryInstructionSet) {
 // Carried by the second hand against the first one's tool, pushed, and carried by the first: recorded and
 // replayed, both hands.
 TEST(PieceTwoHands, ARecordingReplaysToTheBit) {
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string path = (folder.path() / "two.mcap").string();
   NoProgress quiet;
   {

@@ -288,7 +288,7 @@ TEST(Pieces, TheHandFeelsNothingOfItAndTheTickNeverWaits) {
   int ticks = 0;
   long allocations = 0, locks = 0;
   for (; ticks < 1000 && bench.session->move_state() != tick::MoveState::done; ++ticks) {
-    const test::RtGuard guard;
+    const burr::test::RtGuard guard;
     const tick::TickRow& row = servo.tick(false);
     servo.publish();
     allocations += guard.allocations();
@@ -304,7 +304,7 @@ TEST(Pieces, TheHandFeelsNothingOfItAndTheTickNeverWaits) {
 
 // A session with strokes, moves, undo and a stale command, recorded and replayed.
 TEST(Pieces, ARecordingReplaysToTheBit) {
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string path = (folder.path() / "moved.mcap").string();
   std::uint64_t at_end = 0;
   std::vector<std::uint64_t> pieces;

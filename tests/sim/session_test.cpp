@@ -237,7 +237,7 @@ TEST(Session, TheTickTakesNeitherMemoryNorLock) {
   for (const auto& command :
        std::initializer_list<tick::Command>{{tick::CommandKind::stiffness, 800}})
     session->command(command);
-  const test::RtGuard guard;
+  const burr::test::RtGuard guard;
   for (int n = 0; n < 4000; ++n) {
     if (n == 1500) session->command({tick::CommandKind::undo, 0});
     if (n == 2200) session->command({tick::CommandKind::burr_radius, 1.5 * kMm});

@@ -192,7 +192,7 @@ bool waited_for(const std::function<bool()>& what) {
 // Cut free by the hand, it is taken when the tube is near, and not before; what lay free at the start stays. The
 // recording replays to the bit.
 TEST(Splinter, ThatWasCutFreeIsTakenByATubeNearIt) {
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string path = (folder.path() / "sucked.mcap").string();
   NoProgress quiet;
   double taken = 0;

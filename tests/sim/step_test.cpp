@@ -148,13 +148,13 @@ TEST(Step, StopsWhenAsked) {
 }
 
 TEST(Step, TakesNoMemoryAndNoLock) {
-  if (!test::RtGuard::watching()) GTEST_SKIP() << "a sanitizer counts by itself";
+  if (!burr::test::RtGuard::watching()) GTEST_SKIP() << "a sanitizer counts by itself";
   NoProgress quiet;
   const auto session = milling(3);
   session->step(200, quiet);
   long allocations = 0, locks = 0;
   {
-    const test::RtGuard guard;
+    const burr::test::RtGuard guard;
     session->step(2800, quiet);
     allocations = guard.allocations();
     locks = guard.locks();
@@ -166,7 +166,7 @@ TEST(Step, TakesNoMemoryAndNoLock) {
 
 TEST(Step, ARecordingOfStepsIsSimulatedAgainToTheBit) {
   NoProgress quiet;
-  const test::Folder folder;
+  const burr::test::Folder folder;
   const std::string file = folder / "s.mcap";
   const auto session = milling(2);
   record::SessionInfo info;

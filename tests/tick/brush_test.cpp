@@ -198,7 +198,7 @@ TEST(BackToTheOriginal, TheTickTakesNeitherMemoryNorLock) {
   Held held;
   held.go({0, 0, 0.5 * kMm});
   held.mode(ToolMode::restore);
-  const test::RtGuard guard;
+  const burr::test::RtGuard guard;
   for (int n = 0; n < 1000; ++n) {
     if (n == 500) held.mode(ToolMode::smooth);
     held.tick();

@@ -70,7 +70,7 @@ TEST(MethodsInASession, TakeNoMemoryInATickTheTrianglesOfThePictureNeither) {
     settings.servo.removal.law = static_cast<edit::RemovalLaw>(n % edit::kLaws);
     const auto run = session(settings, "slot");
     double removed = 0;
-    const test::RtGuard guard;
+    const burr::test::RtGuard guard;
     for (int k = 0; k < 1500; ++k) {
       removed = run->servo().tick(false).ledger.removed;
       run->servo().publish();

@@ -157,7 +157,7 @@ TEST(MirrorMode, TheHandFeelsWhatItFeelsWithoutOne) {
 TEST(MirrorMode, TheTickTakesNeitherMemoryNorLock) {
   Held held;
   held.go({-2 * kMm, 0, 1.6 * kMm});
-  const test::RtGuard guard;
+  const burr::test::RtGuard guard;
   held.servo.commands().push(command_for(held.mirror));
   held.state.world_from_tool.p.z() = 0.5 * kMm;
   for (int n = 0; n < 2000; ++n) {

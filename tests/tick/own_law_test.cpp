@@ -237,7 +237,7 @@ TEST(OwnLaw, BurrTakesNoMemoryInATickWithIt) {
     out.energy_j = 2e-4;
     return 0;
   }));
-  const test::RtGuard guard;
+  const burr::test::RtGuard guard;
   for (int n = 0; n < 1500; ++n) {
     static_cast<void>(run->servo().tick(false));
     run->servo().publish();

@@ -306,7 +306,7 @@ TEST(SecondHand, WhateverItSaysItsLimitHolds) {
 
 TEST(SecondHand, TakesNoMemoryAndNoLock) {
   Bench bench;
-  const test::RtGuard guard;
+  const burr::test::RtGuard guard;
   for (int n = 0; n < 500; ++n) {
     bench.tube({3 * kMm * std::sin(0.05 * n), 0, (1 + std::cos(0.03 * n)) * kMm});
     static_cast<void>(bench.session->servo().tick(false));

@@ -150,7 +150,7 @@ Done work(Bench& bench, const std::string& name, int ticks = 500) {
     low = std::max(low, tool::support(part.shape, down) - (turn * part.tool_from_part.p).z());
   }
   {
-    const test::RtGuard guard;
+    const burr::test::RtGuard guard;
     for (int n = 0; n < ticks; ++n) {
       const double t = n / static_cast<double>(ticks);
       const double z = t < 0.5 ? 0.3 - 2.6 * t : -1, x = t < 0.5 ? 0 : 4 * (t - 0.5);

@@ -483,12 +483,12 @@ Status run_cohort_list(const Options& options) {
   if (!store) return store.error();
   const auto all = school::cohorts(**store);
   if (!all) return all.error();
-  Json json = Json::array();
+  Json listed = Json::array();
   for (const school::Cohort& one : *all) {
     fmt::print("{}: {}\n", base::printable(one.title), base::list_of(one.members));
-    json.push_back({{"id", one.id}, {"title", one.title}, {"members", one.members}});
+    listed.push_back({{"id", one.id}, {"title", one.title}, {"members", one.members}});
   }
-  print_json(options.json, {{"cohorts", json}});
+  print_json(options.json, {{"cohorts", listed}});
   return fine();
 }
 
