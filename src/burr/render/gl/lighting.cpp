@@ -13,12 +13,6 @@ using math::Vec3;
 
 namespace {
 
-// The tool's shadow has a limited reach, so that it can be redrawn where the tool moved and kept
-// elsewhere. See passes() in gl/shaders.h.
-constexpr double kShadowReach = 25e-3;  // from head and shaft, along the light [m]
-constexpr double kShadowShaft = 12e-3;  // length of shaft that gives shadow, from the head's centre
-                                        // [m]
-
 float linear(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
 Eigen::Vector3f light_of(const Light& light) {
   return static_cast<float>(light.strength) *
@@ -43,7 +37,12 @@ std::vector<Vec3> shadow_of(const Scene& scene) {
                        light.z() * scene.camera.backward();
   const double r = burr.radius + 0.12 * kShadowReach + 0.1 * burr.radius;  // with the soft edge of
                                                                            // the shadow
-  const Aabb box = {{-r, -r, -r}, {r, r, kShadowShaft + r}};
+  Aabb box = {{-r, -r, -r}, {r, r, kShadowShaft + r}};
+  if (burr.other != nullptr) {
+    box = shadow_box(*burr.other);
+    if (box.empty()) return {};
+    box = box.inflated(0.12 * kShadowReach);
+  }
   std::vector<Vec3> points;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p = burr.world_from_tool * box.corner(corner);
@@ -78,17 +77,18 @@ Status Lighting::start(bool es) {
   if (!linked) return linked.error();
   sky_ = std::move(*linked);
   constexpr const char* kOcclusion[] = {"", "#define HOLLOWS\n", "#define HOLLOWS\n#define HALF\n"};
+  constexpr const char* kShadow[] = {"", "#define SHADOW\n", "#define SHADOW_MAP\n"};
   for (std::size_t ambient_occlusion = 0; ambient_occlusion < 3; ++ambient_occlusion)
-    for (const bool shadow : {false, true})
+    for (std::size_t shadow = 0; shadow < 3; ++shadow)
       for (const bool others : {false, true}) {
         linked =
             Program::link(es, {kScreenVertex},
-                          {kOcclusion[ambient_occlusion], shadow ? "#define SHADOW\n" : "",
+                          {kOcclusion[ambient_occlusion], kShadow[shadow],
                            others ? "#define OTHERS\n" : "", kColourFunctions, kLightFragment});
         if (!linked) return linked.error();
-        lights_[ambient_occlusion][shadow ? 1 : 0][others ? 1 : 0] = std::move(*linked);
+        lights_[ambient_occlusion][shadow][others ? 1 : 0] = std::move(*linked);
       }
-  return fine();
+  return tool_shadow.start(es);
 }
 
 void Lighting::paint_sky(const Scene& scene, const Frame& frame, const Rect& r,
@@ -109,8 +109,10 @@ void Lighting::paint(const Scene& scene, const Frame& frame, const Rect& r, cons
   const std::size_t kind = ambient_occlusion.map == nullptr ? 0
                            : ambient_occlusion.stride == 1  ? 1
                                                             : 2;
-  Program& light =
-      look.plain ? plain_ : lights_[kind][besides.shadow ? 1 : 0][besides.others ? 1 : 0];
+  Program& light = look.plain ? plain_
+                              : lights_[kind][!besides.shadow       ? 0
+                                              : tool_shadow.drawn() ? 2
+                                                                    : 1][besides.others ? 1 : 0];
   glBindFramebuffer(GL_FRAMEBUFFER, what.lit_at->get());
   glViewport(0, 0, frame.width, frame.height);
   scissor(r);
@@ -147,6 +149,7 @@ void Lighting::paint(const Scene& scene, const Frame& frame, const Rect& r, cons
   ball << centre.cast<float>(), static_cast<float>(burr.radius);
   light.set("ball", ball);
   light.set("shaft", Eigen::Vector3f(axis.cast<float>()));
+  tool_shadow.set(light, 4);
   light.set("shadow_reach", static_cast<float>(kShadowReach));
   light.set("shaft_size",
             Eigen::Vector2f(static_cast<float>(std::min(burr.shaft_radius, burr.radius)),

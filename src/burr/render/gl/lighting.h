@@ -9,6 +9,7 @@
 
 #include "burr/render/gl/frame.h"
 #include "burr/render/gl/objects.h"
+#include "burr/render/gl/tool_shadow.h"
 #include "burr/render/scene.h"
 
 namespace burr::render::gl {
@@ -29,6 +30,8 @@ struct OcclusionMaps {
 class Lighting {
  public:
   Status start(bool es);
+  // The shadow of a tool that is no round burr; drawn before paint().
+  ToolShadow tool_shadow;
   // What a rectangle may contain besides bone: the tool's shadow; tool and marks.
   struct Besides {
     bool shadow = false, others = false;
@@ -40,7 +43,9 @@ class Lighting {
 
  private:
   Program plain_, sky_;
-  Program lights_[3][2][2];  // [hollows: none, full, half resolution][shadow][others]
+  Program lights_
+      [3][3]
+      [2];  // [hollows: none, full, half resolution][shadow: none, of a round burr, by a map][others]
 };
 
 // Points around everything that the tool's shadow may touch; empty without a tool.

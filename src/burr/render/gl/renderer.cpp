@@ -176,7 +176,8 @@ Result<Image> Renderer::image(const Scene& scene, int width, int height, int til
       parts.grain = !scene.look.plain;
       parts.light_occlusion = has_occlusion(scene.look);
       if (parts.light_occlusion) parts.ambient_occlusion.add(frame.all());
-      w.paint(scene, frame, parts, pieces);
+      if (const Status painted = w.paint(scene, frame, parts, pieces); !painted)
+        return painted.error();
       if (const Status sharp = w.focus(scene, frame); !sharp) return sharp.error();
       const int left = inner.x0 / factor, top = height - inner.y1 / factor;
       const Status done = w.put_on_sheet(

@@ -4,6 +4,7 @@
 //     mesh     the same for tool and marks
 //     hollow   normal, depth -> ambient occlusion, at full or half resolution
 //     soften   ambient occlusion -> the same without noise, smoothed within each surface
+//     shadow   a tool of any shape -> how near to the key light it is
 //     light    all of these -> the picture
 //     sky      the background
 //     through  blends what is behind the bone with the bone
@@ -29,6 +30,17 @@ void main() {
   n = normalize(view_from_model_n * at_n);
   colour = at_colour;
 }
+)";
+
+// Into the map of gl/tool_shadow.h: covered, depth along the light 0..1.
+inline constexpr const char* kShadowVertex = R"(
+layout(location = 0) in vec3 at_p;
+uniform mat4 clip_from_model;
+void main() { gl_Position = clip_from_model * vec4(at_p, 1.0); }
+)";
+inline constexpr const char* kShadowFragment = R"(
+layout(location = 0) out vec4 covers;
+void main() { covers = vec4(1.0, gl_FragCoord.z, 0.0, 1.0); }
 )";
 
 // What milling leaves on bone, on its colour and wetness: fresh, wet, dust, blood. cloud, speck: of
@@ -300,7 +312,7 @@ vec3 srgb(vec3 c) {
 )";
 
 // Placed after kColourFunctions, with PLAIN, or with HOLLOWS (and HALF: at half resolution), SHADOW
-// (of the tool) and OTHERS (than bone: tool and marks) as requested. Software
+// (of a round burr) or SHADOW_MAP (of another tool), and OTHERS (than bone: tool and marks) as requested. Software
 // rendering runs both branches of every `if`, so code that is not needed must be left out.
 inline constexpr const char* kLightFragment = R"(
 uniform sampler2D colour_map;
@@ -377,6 +389,24 @@ float passes(vec3 p, vec3 to) {
   rod = max(rod, smoothstep(0.5, 1.0, t / shadow_reach));
   return min(open, rod);
 }
+#elif defined(SHADOW_MAP)
+uniform sampler2D shadow_map;
+uniform mat4 map_from_view;
+uniform vec3 map_size;  // [m]
+// The same for a tool of any shape. The level of the map is chosen by how soft the edge is, which depends on the distance to
+// the tool along the light.
+float passes(vec3 p, vec3 to) {
+  vec3 at = (map_from_view * vec4(p, 1.0)).xyz;
+  float texel = max(map_size.x, map_size.y) / float(textureSize(shadow_map, 0).x);  // [m]
+  vec4 around = textureLod(shadow_map, at.xy, log2(4e-3 / texel));
+  float along = max(at.z * around.r - around.g, 0.0) / max(around.r, 0.03) * map_size.z;
+  float soft = 0.12 * along + 0.1e-3;
+  vec4 here = textureLod(shadow_map, at.xy, log2(max(soft / texel, 1.0)));
+  float behind = smoothstep(0.0, 0.4e-3, at.z * here.r * map_size.z - here.g * map_size.z);
+  vec2 inside = smoothstep(vec2(0.0), vec2(0.06), at.xy) * smoothstep(vec2(0.0), vec2(0.06), 1.0 - at.xy);
+  float open = 1.0 - here.r * behind * inside.x * inside.y;
+  return max(open, smoothstep(0.5, 1.0, along / shadow_reach));
+}
 #else
 float passes(vec3 p, vec3 to) { return 1.0; }
 #endif
@@ -393,7 +423,7 @@ void main() {
   vec3 along = vec3(uv * ray.xy + ray.zw, -1.0);
   vec3 eye = normalize(-along);
   float z = 0.0;
-#if defined(SHADOW) || defined(HALF)
+#if defined(SHADOW) || defined(SHADOW_MAP) || defined(HALF)
   float d = texelFetch(depth_map, at, 0).r;
   z = planes.x * planes.y / (planes.y - d * (planes.y - planes.x));
 #endif

@@ -163,7 +163,7 @@ void Shapes::make_shaft(const Burr& burr) {
 
 void Shapes::add(const Shape& shape, const Eigen::Matrix4d& world_from_shape, const Colour& colour,
                  bool steel, bool on_top, const std::vector<math::Aabb>& boxes_shape) {
-  Piece piece{&shape, world_from_shape, colour, steel, false, on_top, {}};
+  Piece piece{&shape, world_from_shape, colour, steel, false, on_top, false, {}};
   for (const math::Aabb& box : boxes_shape) {
     auto& corners = piece.boxes.emplace_back();
     for (int corner = 0; corner < 8; ++corner)
@@ -260,7 +260,11 @@ void Shapes::add_chips(const std::shared_ptr<const surface::Mesh>& chips) {
 }
 
 void Shapes::add_tool(const Burr& burr) {
-  if (burr.other != nullptr) return add_other(held_, burr.world_from_tool, burr.other);
+  if (burr.other != nullptr) {
+    add_other(held_, burr.world_from_tool, burr.other);
+    for (Piece& piece : pieces_) piece.gives_shadow = true;  // the tool comes first
+    return;
+  }
   make_shaft(burr);
   math::Pose turned = burr.world_from_tool;
   turned.q = turned.q * math::Quat(Eigen::AngleAxisd(burr.turn, Vec3::UnitZ()));

@@ -36,6 +36,7 @@ struct Piece {
   bool steel = false;  // part of the tool, with light and shadow; else a mark
   bool bone = false;   // looks like bone
   bool on_top = false;
+  bool gives_shadow = false;  // drawn into the map of gl/tool_shadow.h
   // the space it fills: corners of oriented boxes in the world; several where one would be mostly
   // empty
   std::vector<std::array<math::Vec3, 8>> boxes;

@@ -130,8 +130,8 @@ struct Renderer::Work {
     bool grain = true;
     math::Aabb extent;  // of all bone
   };
-  void paint(const Scene& scene, const gl::Frame& frame, const Parts& parts,
-             const std::vector<gl::Piece>& pieces);
+  Status paint(const Scene& scene, const gl::Frame& frame, const Parts& parts,
+               const std::vector<gl::Piece>& pieces);
   void paint_bone(const Scene& scene, const gl::Frame& frame, const gl::Rect& r, bool grain);
   void paint_tool(const gl::Frame& frame, const gl::Rect& r, const std::vector<gl::Piece>& pieces);
   void draw_pieces(const gl::Frame& frame, const gl::Rect& r, const std::vector<gl::Piece>& pieces,

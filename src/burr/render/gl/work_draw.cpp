@@ -157,7 +157,7 @@ Status Renderer::Work::draw(const Scene& scene, int wide, int high) {
   held->drape = scene.drape;
   held->pieces = pieces;
   if (!parts.bone.empty() || !parts.tool.empty() || !parts.ambient_occlusion.empty())
-    paint(scene, frame, parts, pieces);
+    if (const Status painted = paint(scene, frame, parts, pieces); !painted) return painted;
   if (const Status sharp = focus(scene, frame); !sharp) return sharp;
   if (all) figures.redrawn = 1;
 

@@ -37,8 +37,8 @@ Rect rect_around(const std::vector<Piece>& pieces, const Frame& frame) {
   return all;
 }
 
-void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& parts,
-                           const std::vector<Piece>& pieces) {
+Status Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& parts,
+                             const std::vector<Piece>& pieces) {
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
   const Rect not_bone = rect_around(pieces, frame);
@@ -60,6 +60,8 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
 
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
+  if (const Status drawn = lighting.tool_shadow.draw(scene, frame, pieces); !drawn) return drawn;
+  glEnable(GL_SCISSOR_TEST);
   glBindVertexArray(nothing.get());
   const int samples = parts.few_samples ? std::min(kFewSamples, scene.look.occlusion_samples)
                                         : scene.look.occlusion_samples;
@@ -91,6 +93,7 @@ void Renderer::Work::paint(const Scene& scene, const Frame& frame, const Parts& 
   glDisable(GL_SCISSOR_TEST);
   lit_anew = lit;
   figures.redrawn = std::max(figures.redrawn, std::min(1.0, lit.area() / frame.all().area()));
+  return fine();
 }
 
 void Renderer::Work::paint_bone(const Scene& scene, const Frame& frame, const Rect& r, bool grain) {
