@@ -93,16 +93,18 @@ def declared_in_headers(text):
     return found
 
 
-def gets_an_ending(text, own):
+@functools.cache
+def gets_an_ending(file):
     """Which of a source's own names a macro may change: those that mean one thing wherever they stand.
 
     Not: a name of a member too, or of something in a namespace; of what a header declares; in a macro; in the name of a test.
     """
-    code = re.sub(r"//.*|\"(?:[^\"\\]|\\.)*\"", "", without_raw_strings(text))
+    text = file.read_text(errors="replace")
+    own, code = names(text), re.sub(r"//.*|\"(?:[^\"\\]|\\.)*\"", "", without_raw_strings(text))
     other = set(re.findall(r"(?:(?<!\.)\.|->|::) *~?(\w+)", code)) | own.functions & set(re.findall(r"(\w+)::", code))
     for line in re.findall(r"^ *#(?:.*\\\n)*.*|^(?:[A-Z_]*TEST[A-Z_]*|INSTANTIATE\w*|MATCHER\w*)\(.*(?:\n .*)?", code, re.M):
         other.update(re.findall(r"\w+", line))
-    other.update(name for name in own.functions | own.others if len(name) < 3 or name in KEYWORDS)
+    other.update(name for name in own.functions | own.others if len(name) < 3 or name in KEYWORDS or re.fullmatch("[A-Z0-9_]+", name))
     return (own.functions | own.others) - other - declared_in_headers(text)
 
 
@@ -127,8 +129,8 @@ def unit(files):
     texts = [file.read_text(errors="replace") for file in files]
     first = dict.fromkeys(line for file, text in zip(files, texts) for line in headers(file, text))  # macros must not change what a header says
     said = "".join(f"{line}\n" for line in first)
-    for n, (file, text) in enumerate(zip(files, texts)):
-        own = sorted(gets_an_ending(text, names(text)))
+    for n, file in enumerate(files):
+        own = sorted(gets_an_ending(file))
         said += "".join(f"#define {name} {name}_of_{n}\n" for name in own)
         said += f'#include "{file}"\n'
         said += "".join(f"#undef {name}\n" for name in own)
@@ -149,7 +151,7 @@ def groups(files, most_bytes=MOST_BYTES):
             alone.append([file])
             continue
         mine = names(text)
-        ending = gets_an_ending(text, mine)
+        ending = gets_an_ending(file)
         for those in (mine.functions, mine.others, mine.words):
             those -= ending
         for group in made:

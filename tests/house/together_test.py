@@ -63,6 +63,7 @@ class Together(unittest.TestCase):
         self.assertEqual(groups(a=one + member, b=one + member.replace("T", "S")), APART)
         a_macro = "#define SAY one()\n#undef SAY\n"
         self.assertEqual(groups(a=one + a_macro, b=one + a_macro), APART)
+        self.assertEqual(groups(a=own("EM_JS(int, f, (), {});"), b=own("EM_JS(int, g, (), {});")), APART)  # a macro of others
         fixture = own("class Fix {};\nTEST_F(Fix, works) {\n}\n")
         self.assertEqual(groups(a=fixture, b=fixture), APART)
         overload = '#include "burr/base/trimmed.h"\n' + own("int trimmed(int n) { return n; }")
