@@ -22,9 +22,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(burr_options INTERFACE -fno-semantic-interposition)
   # g++ 12 gives false warnings in optimised Eigen and std::string code (PR 105562, 105651)
   target_compile_options(burr_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict)
-  # g++ looks for memory that it no longer needs each time its heap has grown by a share of itself: a tenth of the time
-  # of a build. Without this a large source takes 1.3 GB instead of 1.1 GB.
-  target_compile_options(burr_options INTERFACE --param=ggc-min-heapsize=2000000)
 endif()
 # burr_common_headers(TARGET [HEADER...] or REUSE_FROM OTHER): headers parsed once instead of once a
 # file, which saves a third of the time of a build. The builds for other processors have none, so they

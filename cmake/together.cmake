@@ -65,6 +65,10 @@ endfunction()
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # it takes all that a group includes for headers
   target_compile_options(burr_options INTERFACE -Wno-subobject-linkage)
+  # g++ looks for memory that it no longer needs each time its heap has grown by a share of itself: a tenth of the time of a
+  # build. Without this a large source takes 1.3 GB instead of 1.1 GB. Other programs that read compile_commands.json do not
+  # know the option, so it is not there in daily work.
+  target_compile_options(burr_options INTERFACE --param=ggc-min-heapsize=2000000)
 endif()
 get_property(targets DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
 foreach(target ${targets})

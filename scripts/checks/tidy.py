@@ -54,7 +54,7 @@ def settings(command):
             pairs.append((word, next(words)))
         elif re.match("-[ID]", word):
             pairs.append((word,))
-        elif not re.match("-[WO]", word):  # warnings and optimisation change nothing for clang-tidy
+        elif not re.match("-[WO]|--param=", word):  # warnings, optimisation and g++'s memory change nothing for clang-tidy
             rest.append(word)
     return tuple(rest), pairs
 
