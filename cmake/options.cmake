@@ -78,17 +78,18 @@ function(burr_reads_files)
 endfunction()
 
 # burr_glue(TARGET): code that only calls the library, which does the slow work. These options save
-# a sixth to two fifths of its compile time; with sanitizers, up to two thirds.
+# a sixth to two fifths of its compile time; with AddressSanitizer, up to two thirds. With
+# ThreadSanitizer the window would run three times as long, so there it stays as it is.
 function(burr_glue target)
-  if(BURR_SANITIZE)
+  if(BURR_SANITIZE MATCHES "address")
     target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O0>)
-  else()
+  elseif(NOT BURR_SANITIZE)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
 # burr_glue_for_sanitizers(TARGET): a part of the library of which no tick and no large volume waits
 function(burr_glue_for_sanitizers target)
-  if(BURR_SANITIZE)
+  if(BURR_SANITIZE MATCHES "address")
     burr_glue(${target})
   endif()
 endfunction()
