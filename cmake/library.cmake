@@ -123,14 +123,14 @@ set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/burr/base/helper_program.cpp APPEN
   COMPILE_DEFINITIONS BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 burr_common_headers(burr_files <fmt/format.h>)
 foreach(part burr_render_gl burr_workshop burr_device_haply)
-  burr_glue_for_sanitizers(${part})
+  burr_glue_for_asan(${part})
 endforeach()
 foreach(part burr_session burr_device_crtk burr_device_forcedimension burr_device_openhaptics burr_device_polhem)
   burr_common_headers(${part} REUSE_FROM burr_files)  # the same options, so one set of headers for all
 endforeach()
 burr_common_headers(burr_render_gl <fmt/format.h>)
 foreach(part burr_workshop burr_device_haply)
-  if(BURR_SANITIZE)  # other options
+  if(BURR_SANITIZE MATCHES "address")  # other options
     burr_common_headers(${part} <fmt/format.h>)
   else()
     burr_common_headers(${part} REUSE_FROM burr_files)
@@ -168,7 +168,7 @@ add_library(burr_dataset STATIC ${dataset_sources})
 target_link_libraries(burr_dataset PUBLIC burr PRIVATE burr_options fmt::fmt PkgConfig::HDF5)
 burr_common_headers(burr_dataset <fmt/format.h>)
 foreach(part burr_serve burr_school burr_lrs)
-  burr_glue_for_sanitizers(${part})
+  burr_glue_for_asan(${part})
 endforeach()
 
 # what the built-in bones are shaped by (program.cmake)

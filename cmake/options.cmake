@@ -87,8 +87,8 @@ function(burr_glue target)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()
-# burr_glue_for_sanitizers(TARGET): a part of the library of which no tick and no large volume waits
-function(burr_glue_for_sanitizers target)
+# burr_glue_for_asan(TARGET): a part of the library of which no tick and no large volume waits
+function(burr_glue_for_asan target)
   if(BURR_SANITIZE MATCHES "address")
     burr_glue(${target})
   endif()

@@ -13,6 +13,13 @@ using math::Vec3;
 
 namespace {
 
+// The tool's shadow has a limited reach, so that it can be redrawn where the tool moved and kept
+// elsewhere. See passes() in gl/shaders.h.
+constexpr double kShadowReach = 25e-3;  // from the tool, along the light [m]
+constexpr double kShadowShaft =
+    12e-3;  // length of a round burr's shaft that gives shadow, from the
+            // head's centre [m]
+
 float linear(float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); }
 Eigen::Vector3f light_of(const Light& light) {
   return static_cast<float>(light.strength) *

@@ -43,9 +43,8 @@ class Lighting {
 
  private:
   Program plain_, sky_;
-  Program lights_
-      [3][3]
-      [2];  // [hollows: none, full, half resolution][shadow: none, of a round burr, by a map][others]
+  // [hollows: none, full, half resolution][shadow: none, of a round burr, by a map][others]
+  Program lights_[3][3][2];
 };
 
 // Points around everything that the tool's shadow may touch; empty without a tool.

@@ -4,7 +4,7 @@
 //     mesh     the same for tool and marks
 //     hollow   normal, depth -> ambient occlusion, at full or half resolution
 //     soften   ambient occlusion -> the same without noise, smoothed within each surface
-//     shadow   a tool of any shape -> how near to the key light it is
+//     shadow   a tool of any shape -> what it covers, as the key light sees it, and how deep
 //     light    all of these -> the picture
 //     sky      the background
 //     through  blends what is behind the bone with the bone

@@ -14,12 +14,6 @@
 
 namespace burr::render::gl {
 
-// The shadow of head and shaft, or of another tool, ends at this distance from them, along the light [m]. So it can be drawn anew
-// where the tool moved and kept elsewhere.
-inline constexpr double kShadowReach = 25e-3;
-// So much of a round burr's shaft gives shadow, from the head's centre [m].
-inline constexpr double kShadowShaft = 12e-3;
-
 // The part of a tool that gives shadow. Frame: of the tool [m]
 [[nodiscard]] math::Aabb shadow_box(const ToolLook& look);
 
