@@ -228,12 +228,13 @@ BonePtr from_hu(const py::array& hu, const py::object& spacing_mm, const py::obj
 
 BonePtr load(const std::string& source, double voxel_mm, const py::object& iso,
              const std::string& region, const std::string& series, const std::string& labels,
-             const std::string& materials, bool allow_missing, std::size_t reserve_bricks,
-             const py::object& call) {
+             const std::string& materials, bool allow_missing, bool as_it_is,
+             std::size_t reserve_bricks, const py::object& call) {
   scenario::Recipe recipe = recipe_from(voxel_mm, labels, materials, reserve_bricks);
   recipe.source = source;
   recipe.series = series;
   recipe.allow_missing = allow_missing;
+  recipe.as_it_is = as_it_is;
   if (!iso.is_none()) recipe.iso = iso.cast<double>();
   if (!region.empty()) recipe.region = take(scenario::parse_region(region));
   Work work(call);
@@ -453,8 +454,9 @@ void add_bone(py::module_& module) {
                                     "A bone of voxels. It never changes: a session cuts a copy.");
   bone.def_static("load", &load, "source"_a, py::kw_only(), "voxel_mm"_a = 0.0,
                   "iso"_a = py::none(), "region"_a = "", "series"_a = "", "labels"_a = "",
-                  "materials"_a = "", "allow_missing"_a = false, "reserve_bricks"_a = 4096,
-                  "progress"_a = py::none(), "A file, a DICOM folder, or phantom:NAME.");
+                  "materials"_a = "", "allow_missing"_a = false, "as_it_is"_a = false,
+                  "reserve_bricks"_a = 4096, "progress"_a = py::none(),
+                  "A file, a DICOM folder, or phantom:NAME.");
   bone.def_static("from_array", &from_array, "field"_a, "voxel_mm"_a, py::kw_only(),
                   "labels"_a = py::none(), "tissues"_a = std::vector<volume::Tissue>(),
                   "origin_mm"_a = py::make_tuple(0.0, 0.0, 0.0), "reserve_bricks"_a = 4096,

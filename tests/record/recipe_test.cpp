@@ -77,6 +77,7 @@ TEST(RecordedRecipe, OfAnOlderRecordingIsTheSame) {
   wanted.reserve_bricks = 77;
   wanted.margin = false;  // older than the layers of air at the border
   wanted.check_values = false;
+  wanted.check_scan = false;
   EXPECT_TRUE(read->volume.recipe == wanted) << scenario::to_json(read->volume.recipe);
   EXPECT_EQ(read->volume.format, "formula");
 
@@ -101,6 +102,7 @@ TEST(RecordedRecipe, OfAnOlderRecordingIsTheSame) {
   wanted.reserve_bricks = 77;
   wanted.margin = false;  // older than the layers of air at the border
   wanted.check_values = false;
+  wanted.check_scan = false;
   EXPECT_TRUE(read->volume.recipe == wanted) << scenario::to_json(read->volume.recipe);
 }
 

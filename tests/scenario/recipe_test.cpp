@@ -28,6 +28,7 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
                              {0, static_cast<int>(random() % 1000)},
                              {3, 4}};
     if (coin()) recipe.allow_missing = true;
+    if (coin()) recipe.as_it_is = true;
     if (coin()) recipe.voxel_mm = share(random);
     if (coin()) recipe.iso = std::ldexp(share(random) - 0.5, static_cast<int>(random() % 40));
     if (coin()) recipe.smooth = 100 * share(random);
@@ -39,6 +40,7 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
     if (coin()) recipe.reserve_bricks = random() % 100'000;
     if (coin()) recipe.margin = false;
     if (coin()) recipe.check_values = false;
+    if (coin()) recipe.check_scan = false;
     if (coin()) recipe.keep.largest = 1 + static_cast<int>(random() % 100);
     while (random() % 3 == 0)
       recipe.keep.at_mm.emplace_back(1 - 1e3 * share(random), share(random) / 3, 1e-9);
@@ -61,6 +63,8 @@ TEST(Recipe, WithoutAWordOfTheMarginHasNone) {
   EXPECT_TRUE(Recipe{}.margin);
   EXPECT_FALSE(old->check_values);
   EXPECT_TRUE(Recipe{}.check_values);
+  EXPECT_FALSE(old->check_scan);
+  EXPECT_TRUE(Recipe{}.check_scan);
 }
 
 TEST(Recipe, WithoutPathsNamesNobody) {

@@ -32,7 +32,7 @@ Import& import() {
   return one;
 }
 
-// {"iso": 300, "region": [i0, i1, j0, j1, k0, k1], "memory_mb": 1024, "allow_missing": true}; each may be missing.
+// {"iso": 300, "region": [i0, i1, j0, j1, k0, k1], "memory_mb": 1024, "allow_missing": true, "as_it_is": true}; each may be missing.
 scenario::Recipe recipe_of(const char* text) {
   scenario::Recipe recipe;
   const json asked = json::parse(text, nullptr, false);
@@ -42,6 +42,7 @@ scenario::Recipe recipe_of(const char* text) {
   if (asked.contains("iso") && asked["iso"].is_number()) recipe.iso = number(asked["iso"]);
   if (asked.contains("memory_mb")) recipe.memory_mb = number(asked["memory_mb"]);
   recipe.allow_missing = asked.contains("allow_missing") && asked["allow_missing"] == true;
+  recipe.as_it_is = asked.contains("as_it_is") && asked["as_it_is"] == true;
   if (asked.contains("region") && asked["region"].is_array() && asked["region"].size() == 6) {
     scenario::Region region;
     const auto at = [&](std::size_t n) { return static_cast<int>(number(asked["region"][n])); };

@@ -62,7 +62,8 @@ std::string parts_text(const importing::PartsFound& parts) {
 }
 
 void print(const importing::ImportSummary& s) {
-  fmt::print("{}: {} x {} x {} voxels of {:.5g} x {:.5g} x {:.5g} mm, {}\n", s.format,
+  fmt::print("{}{}: {} x {} x {} voxels of {:.5g} x {:.5g} x {:.5g} mm, {}\n", s.format,
+             s.modality.empty() ? "" : " (" + base::printable(s.modality, 16) + ")",
              s.scan_size.x(), s.scan_size.y(), s.scan_size.z(), s.spacing_mm.x(), s.spacing_mm.y(),
              s.spacing_mm.z(),
              s.labels       ? "labels"
@@ -97,6 +98,7 @@ void print(const importing::ImportSummary& s) {
 
 nlohmann::json to_json(const importing::ImportSummary& s) {
   nlohmann::json out = {{"format", s.format},
+                        {"modality", s.modality},
                         {"size", array(s.scan_size)},
                         {"spacing_mm", array(s.spacing_mm)},
                         {"origin_mm", array(s.origin_mm)},
@@ -176,6 +178,7 @@ Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
   // a file that can be read but not milled is still described
   importing::ImportSummary s;
   s.format = scan->format;
+  s.modality = scan->modality;
   s.scan_size = s.roi_size = scan->size;
   s.spacing_mm = scan->spacing_mm;
   s.axes = scan->axes;

@@ -39,7 +39,9 @@ void add_volume_options(CLI::App& command, scenario::Recipe& recipe) {
                      "volume of a DICOM folder: #2 as in the list of burr info, a Series Instance "
                      "UID or its beginning, or UID#2 for the second volume of that series");
   command.add_flag("--allow-missing", recipe.allow_missing,
-                   "make bone of a scan though some of its files cannot be read");
+                   "make bone of a scan though some of its files cannot be read, or are not there");
+  command.add_flag("--as-it-is", recipe.as_it_is,
+                   "make bone of a scan though it contradicts itself, or is no CT");
   command.add_option("--voxel-mm", recipe.voxel_mm,
                      "edge of the cubic voxels (default: the finest axis)");
   words(

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "burr/importing/cut_off.h"
 #include "burr/io/value_groups.h"
 
 namespace burr::importing {
@@ -194,11 +195,57 @@ const char* word_of(Sure sure) {
   return "";
 }
 
-BoneLevel estimate_bone_level(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size) {
+namespace {
+
+// Share of the border of the box at or above a level.
+double bright_border(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size,
+                     double level) {
+  std::int64_t bright = 0, all = 0;
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j) {
+      const bool inner = k > 0 && k + 1 < size.z() && j > 0 && j + 1 < size.y();
+      const float* row = scan.values.data() + from.x() +
+                         std::ptrdiff_t{scan.size.x()} *
+                             (from.y() + j + std::ptrdiff_t{scan.size.y()} * (from.z() + k));
+      for (int i = 0; i < size.x(); i += inner && size.x() > 1 ? size.x() - 1 : 1) {
+        if (row[i] == scan.outside) continue;
+        ++all;
+        bright += double{row[i]} >= level ? 1 : 0;
+      }
+    }
+  return all > 0 ? static_cast<double>(bright) / static_cast<double>(all) : 0.0;
+}
+
+// Where air was cut off, its distance to soft tissue says nothing: then bone begins half-way to what
+// is denser than soft tissue, if that is a group of its own.
+void level_of_cut_off(const CutOff& cut, const ValueGroups& groups, const ValueGroup& soft,
+                      BoneLevel& out) {
+  const double above = soft.value + 0.3 * (soft.value - cut.low_value);
+  const ValueGroup* denser = nullptr;
+  for (const ValueGroup& group : groups.all)
+    if (group.value > above && (denser == nullptr || group.share > denser->share)) denser = &group;
+  out.sure = Sure::low;
+  std::string level = "the level is a guess";
+  if (denser != nullptr) {
+    out.level = 0.5 * (soft.value + denser->value);
+    level = fmt::format(
+        "the level is half-way from soft tissue, around {:.4g}, to what is denser, "
+        "around {:.4g}",
+        soft.value, denser->value);
+    if (cut.high && denser->value > cut.high_value - 0.05 * (cut.high_value - cut.low_value))
+      level +=
+          ", which was cut off too: bone cannot be told from all that is a little denser than "
+          "soft tissue";
+  }
+  out.why = fmt::format(
+      "values were cut off, as by the window of a viewer ({}), so how far air lies below soft "
+      "tissue is not known; {}. Export the scan again without a window",
+      piles_text(cut), level);
+}
+
+BoneLevel estimate(const io::Scan& scan, const ValueSample& sample, const ValueGroups& groups,
+                   const math::Ijk& from, const math::Ijk& size, const CutOff& cut) {
   BoneLevel out;
-  const ValueSample sample =
-      io::sample_values(scan.values.data(), scan.size, from, size, scan.outside);
-  const ValueGroups groups = io::groups_of(sample);
   GroupsOfMaterial found;
   if (!name_groups(sample, groups, found)) {
     out.why = "the values show one material only";
@@ -206,10 +253,15 @@ BoneLevel estimate_bone_level(const io::Scan& scan, const math::Ijk& from, const
   }
   out.found = true;
   const double air = found.air.value, soft = found.soft.value, apart = soft - air;
+  if (cut.low && air < cut.low_value + 0.1 * apart && !found.alone) {
+    out.level = soft + kAboveSoft * apart + kOfWidth * found.soft.width;
+    level_of_cut_off(cut, groups, found.soft, out);
+    return out;
+  }
   found.hard = !found.alone && is_tooth(scan, from, size, groups, found);
   if (found.alone || found.hard) {
     out.level = 0.5 * (air + soft);
-    out.sure = found.hard ? Sure::low : Sure::medium;
+    out.sure = found.hard || cut.low ? Sure::low : Sure::medium;
     out.why = found.hard
                   ? fmt::format(
                         "two hard materials around {:.4g} and {:.4g} (as dentine and enamel) "
@@ -220,6 +272,11 @@ BoneLevel estimate_bone_level(const io::Scan& scan, const math::Ijk& from, const
                         "the values show two materials, around {:.4g} and {:.4g}; the level "
                         "is half-way",
                         air, soft);
+    if (cut.low)
+      out.why += fmt::format(
+          "; but values were cut off, as by the window of a viewer ({}), so what lies around the "
+          "bone is not known",
+          piles_text(cut));
     return out;
   }
   out.level = soft + kAboveSoft * apart + kOfWidth * found.soft.width;
@@ -236,6 +293,31 @@ BoneLevel estimate_bone_level(const io::Scan& scan, const math::Ijk& from, const
       "air lies around {:.4g} and soft tissue around {:.4g}, and 300 HU a quarter of that distance "
       "above; three classes of values {} ({:.4g}), the edges in the picture {}",
       air, soft, classes ? "agree" : "do not agree", otsu, edges ? "agree" : "do not");
+  return out;
+}
+
+}  // namespace
+
+BoneLevel estimate_bone_level(const io::Scan& scan, const math::Ijk& from, const math::Ijk& size,
+                              bool check_scan) {
+  const ValueSample sample =
+      io::sample_values(scan.values.data(), scan.size, from, size, scan.outside);
+  const CutOff cut = check_scan ? find_cut_off(sample) : CutOff{};
+  BoneLevel out = estimate(scan, sample, io::groups_of(sample), from, size, cut);
+  if (!check_scan || !out.found) return out;
+  if (cut.high && out.level >= cut.high_value) {
+    out.sure = Sure::low;
+    out.why += fmt::format("; values were cut off below this level ({})", piles_text(cut));
+  }
+  constexpr double kMostBorder = 0.5;
+  if (const double share = bright_border(scan, from, size, out.level); share > kMostBorder) {
+    out.sure = Sure::low;
+    out.why += fmt::format(
+        "; but {:.0f} % of the scan's border would be bone, where air or flesh is expected: is "
+        "dark "
+        "dense here?",
+        100 * share);
+  }
   return out;
 }
 

@@ -17,7 +17,8 @@ namespace burr::importing {
 
 // high: air, soft tissue and bone were found, and both other methods agree. medium: one of them
 // agrees, or there are two materials only and the level is half-way. low: neither agrees, or one
-// material only; look at the bone before you trust it.
+// material only, or something that the estimate rests on does not hold; look at the bone before you
+// trust it.
 enum class Sure : std::uint8_t { low, medium, high };
 [[nodiscard]] const char* word_of(Sure sure);
 
@@ -28,8 +29,10 @@ struct BoneLevel {
   std::string why;     // one sentence
 };
 
-// The box [from, from + size) of a grey scan.
+// The box [from, from + size) of a grey scan. check_scan: what the estimate rests on is checked, and
+// where it fails (values that were cut off, a border that is bone) the estimate is `low`; false: as
+// burr did before 2026-11-29.
 [[nodiscard]] BoneLevel estimate_bone_level(const io::Scan& scan, const math::Ijk& from,
-                                            const math::Ijk& size);
+                                            const math::Ijk& size, bool check_scan = true);
 
 }  // namespace burr::importing

@@ -9,10 +9,12 @@
 #include <optional>
 #include <span>
 
+#include "burr/importing/cut_off.h"
 #include "burr/importing/grey.h"
 #include "burr/importing/keep_greys.h"
 #include "burr/importing/materials.h"
 #include "burr/importing/parts.h"
+#include "burr/importing/scan_notes.h"
 #include "burr/importing/surface_field.h"
 #include "burr/importing/tissues.h"
 #include "burr/io/workers.h"
@@ -170,17 +172,24 @@ Result<Materials> materials_of(const scenario::Recipe& recipe) {
 // Questions of the reader that the recipe leaves open; what it answers becomes a notice.
 Status answer(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
   for (const io::Question& question : scan.questions) {
+    const bool is_answered = answered(question, recipe);
     switch (question.ask) {
       case io::Ask::missing:
-        if (!recipe.allow_missing)
+      case io::Ask::absent:
+        if (!is_answered)
           return error(question.text +
                        "; copy the files again, or go on without these slices with "
                        "--allow-missing");
         out.notices.push_back(question.text + "; used all the same (--allow-missing).");
         break;
       case io::Ask::spacing:
-        if ((recipe.spacing_mm.array() > 0).all()) break;
-        return error(question.text + "; give the size of a voxel with --spacing-mm X,Y,Z");
+        if (!is_answered)
+          return error(question.text + "; give the size of a voxel with --spacing-mm X,Y,Z");
+        break;
+      case io::Ask::doubt:
+        if (!is_answered) return error(question.text + "; to use it all the same, give --as-it-is");
+        out.notices.push_back(question.text + "; used all the same (--as-it-is).");
+        break;
     }
   }
   return fine();
@@ -190,6 +199,7 @@ Status answer(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummar
 ImportSummary summary_of(const io::Scan& scan) {
   ImportSummary out;
   out.format = scan.format;
+  out.modality = scan.modality;
   out.scan_size = scan.size;
   out.spacing_mm = scan.spacing_mm;
   out.axes = scan.axes;
@@ -198,6 +208,28 @@ ImportSummary summary_of(const io::Scan& scan) {
   out.hounsfield = scan.hounsfield;
   out.notices = scan.notices;
   return out;
+}
+
+std::array<bool, 256> solid_labels(const Plan& plan) {
+  std::array<bool, 256> solid{};
+  for (std::size_t v = 1; v < 256; ++v) {
+    const volume::TissueId id = plan.labels.of_label[v];
+    solid[v] = id != 0 && plan.labels.table[id].kind == volume::TissueKind::solid;
+  }
+  return solid;
+}
+
+// What the region cannot show. solid(voxel): whether that voxel of the scan is bone.
+template <class Solid>
+void say_notes(const io::Scan& scan, ImportSummary& out, const Solid& solid) {
+  const auto nx = static_cast<std::size_t>(scan.size.x()),
+             ny = static_cast<std::size_t>(scan.size.y());
+  const auto notes = scan_notes(
+      scan, {out.roi_from, out.roi_size, out.roi_size == scan.size}, [&](int i, int j, int k) {
+        return solid(static_cast<std::size_t>(i) +
+                     nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k)));
+      });
+  out.notices.insert(out.notices.end(), notes.begin(), notes.end());
 }
 
 Status plan_labels(const io::Scan& scan, const scenario::Recipe& recipe, const Materials& materials,
@@ -220,6 +252,8 @@ Status plan_labels(const io::Scan& scan, const scenario::Recipe& recipe, const M
     out.tissues.push_back({id, tissue, plan.counts[v], static_cast<double>(plan.counts[v]) * each,
                            plan.labels.assumed[v]});
   }
+  const auto solid = solid_labels(plan);
+  say_notes(scan, out, [&scan, &solid](std::size_t voxel) { return solid[scan.labels[voxel]]; });
   if (!any_solid)
     return error(
         "no label is solid, so there is nothing to mill; mark the solid labels with --tissues");
@@ -248,8 +282,8 @@ void set_range(const io::Scan& scan, ImportSummary& out) {
 }
 
 // Estimates where bone begins in values that are not HU; false: they show one material only.
-bool estimate_iso(const io::Scan& scan, ImportSummary& out) {
-  const BoneLevel estimate = estimate_bone_level(scan, out.roi_from, out.roi_size);
+bool estimate_iso(const io::Scan& scan, bool check_scan, ImportSummary& out) {
+  const BoneLevel estimate = estimate_bone_level(scan, out.roi_from, out.roi_size, check_scan);
   if (!estimate.found) return false;
   out.iso = estimate.level;
   out.iso_estimated = true;
@@ -262,13 +296,33 @@ bool estimate_iso(const io::Scan& scan, ImportSummary& out) {
   return true;
 }
 
+// Says where the values of a scan in HU were cut off. Error: below the level of bone.
+Status say_cut_off(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
+  const CutOff cut = find_cut_off(
+      io::sample_values(scan.values.data(), scan.size, out.roi_from, out.roi_size, scan.outside));
+  constexpr double kAir = -900, kDense = 2000;  // [HU] scanners themselves end beyond these
+  const bool low = cut.low && cut.low_value > kAir, high = cut.high && cut.high_value < kDense;
+  if (!low && !high) return fine();
+  if (high && cut.high_value <= kBoneHu && !recipe.iso && !recipe.as_it_is)
+    return error(fmt::format(
+        "the values were cut off below bone, as by the window of a viewer ({}), and bone begins at "
+        "{:.0f} HU; export the scan again without a window, or give a level with --iso",
+        piles_text(cut), kBoneHu));
+  out.notices.push_back(
+      fmt::format("The values were cut off, as by the window of a viewer: {}.", piles_text(cut)));
+  return fine();
+}
+
 // Sets the surface level: as requested, or that of bone in HU, or an estimate, or Otsu's threshold.
 Status set_iso(const io::Scan& scan, const scenario::Recipe& recipe, ImportSummary& out) {
+  if (recipe.check_scan && scan.hounsfield)
+    if (Status status = say_cut_off(scan, recipe, out); !status) return status;
   if (recipe.iso) {
     out.iso = *recipe.iso;
   } else if (scan.hounsfield && kBoneHu < double{out.high}) {
     out.iso = kBoneHu;
-  } else if (scan.hounsfield || !recipe.check_values || !estimate_iso(scan, out)) {
+  } else if (scan.hounsfield || !recipe.check_values ||
+             !estimate_iso(scan, recipe.check_scan, out)) {
     out.iso = otsu(scan, out.roi_from, out.roi_size);
     out.iso_by_otsu = true;
     out.notices.push_back(
@@ -312,6 +366,9 @@ Status plan_grey(const io::Scan& scan, const scenario::Recipe& recipe, const Mat
         "--tissues is a table of labels, but this scan has grey values; the table was ignored.");
   set_range(scan, out);
   if (Status status = set_iso(scan, recipe, out); !status) return status;
+  say_notes(scan, out, [&scan, iso = static_cast<float>(out.iso)](std::size_t voxel) {
+    return scan.values[voxel] >= iso;
+  });
   set_smooth(scan, recipe, out);
   if (scan.hounsfield) plan.grey_tissues = hu_tissues(materials);
   auto& tissues = plan.grey_tissues.tissues;
@@ -435,15 +492,6 @@ bool resample_labels(const LabelRegion& region, const Plan& plan,
               std::clamp(std::lround(bone * 255.0F), is_solid ? 128L : 0L, is_solid ? 255L : 127L));
       }
   });
-}
-
-std::array<bool, 256> solid_labels(const Plan& plan) {
-  std::array<bool, 256> solid{};
-  for (std::size_t v = 1; v < 256; ++v) {
-    const volume::TissueId id = plan.labels.of_label[v];
-    solid[v] = id != 0 && plan.labels.table[id].kind == volume::TissueKind::solid;
-  }
-  return solid;
 }
 
 // Says in the summary what is removed.
@@ -613,6 +661,19 @@ Result<Imported> import_grey(const io::Scan& scan, const scenario::Recipe& recip
 }
 
 }  // namespace
+
+bool answered(const io::Question& question, const scenario::Recipe& recipe) {
+  switch (question.ask) {
+    case io::Ask::missing:
+    case io::Ask::absent:
+      return recipe.allow_missing;
+    case io::Ask::spacing:
+      return (recipe.spacing_mm.array() > 0).all();
+    case io::Ask::doubt:
+      return recipe.as_it_is;
+  }
+  return false;
+}
 
 Result<ImportSummary> plan_import(const io::Scan& scan, const scenario::Recipe& recipe) {
   auto plan = make_plan(scan, recipe);

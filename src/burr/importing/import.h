@@ -45,7 +45,7 @@ struct TissueFound {
 
 // What an import did, or would do.
 struct ImportSummary {
-  std::string format;
+  std::string format, modality;  // as in Scan
   math::Ijk scan_size = {0, 0, 0};
   math::Vec3 spacing_mm = {0, 0, 0};
   math::Mat3 axes = math::Mat3::Identity();
@@ -75,6 +75,9 @@ struct Imported {
   ImportSummary summary;
   std::shared_ptr<const volume::Greys> greys;  // if keep_greys is set
 };
+
+// Whether the recipe answers this question of the reader.
+[[nodiscard]] bool answered(const io::Question& question, const scenario::Recipe& recipe);
 
 // Makes all decisions of an import without building anything.
 [[nodiscard]] Result<ImportSummary> plan_import(const io::Scan& scan,

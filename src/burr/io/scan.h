@@ -34,6 +34,8 @@ struct Label {
 enum class Ask : std::uint8_t {
   missing = 1,  // slices that could not be read; --allow-missing answers
   spacing,      // a distance that is not stated, or that no scan has; --spacing-mm answers
+  absent,       // slices that something says should be there; --allow-missing answers
+  doubt,        // it contradicts itself, or is no picture in which bone is bright; --as-it-is answers
 };
 struct Question {
   Ask ask = Ask::missing;
@@ -58,6 +60,7 @@ struct Scan {
   bool k_reversed = false;  // the slices were put in reverse order to make the axes right-handed:
                             // voxel k here is voxel size.z-1-k of the file
   std::string format;       // "DICOM", "NRRD" ...
+  std::string modality;     // as DICOM says it, "CT", "MR", "RTDOSE"; empty: not stated
   // Where a DICOM folder holds several series: one line for each, without patient data, as `burr
   // info` lists them, and the index of the one read here.
   std::vector<std::string> series;

@@ -445,7 +445,8 @@ constexpr const char* kSessionSchema = R"({
       "series": {"type": "string", "description": "#2 as burr info lists them, or own: by its UID"},
       "spacing_mm": {"type": "array", "items": {"type": "number"}, "description": "instead of the file's"},
       "region": {"type": "array", "items": {"type": "integer"}, "description": "voxels of the file, first and last: i0, i1, j0, j1, k0, k1"},
-      "allow_missing": {"type": "boolean", "description": "made though slices could not be read"},
+      "allow_missing": {"type": "boolean", "description": "made though slices could not be read, or are not there"},
+      "as_it_is": {"type": "boolean", "description": "made though the scan contradicts itself or is no CT"},
       "voxel_mm": {"type": "number", "description": "0: the finest axis"},
       "iso": {"type": "number", "description": "level of the surface"},
       "smooth": {"type": "number", "description": "noise removed; below 0: as measured"},
@@ -458,7 +459,8 @@ constexpr const char* kSessionSchema = R"({
       "read_memory_mb": {"type": "number"},
       "reserve_bricks": {"type": "integer", "description": "room for deposits"},
       "margin": {"type": "boolean", "description": "layers of air where the scan's border cuts bone; absent: false"},
-      "check_values": {"type": "boolean", "description": "the header's word on the values is checked, and the level of a scan without HU is estimated; absent: false"}
+      "check_values": {"type": "boolean", "description": "the header's word on the values is checked, and the level of a scan without HU is estimated; absent: false"},
+      "check_scan": {"type": "boolean", "description": "what should be there was compared with what is there, and inverted values were turned; absent: false"}
      }
     }
    }

@@ -140,12 +140,13 @@ bool Keep::operator==(const Keep& other) const {
 
 bool Recipe::operator==(const Recipe& other) const {
   return source == other.source && series == other.series && spacing_mm == other.spacing_mm &&
-         allow_missing == other.allow_missing && region == other.region &&
-         voxel_mm == other.voxel_mm && iso == other.iso && smooth == other.smooth &&
-         labels == other.labels && materials == other.materials && memory_mb == other.memory_mb &&
-         read_seconds == other.read_seconds && read_memory_mb == other.read_memory_mb &&
-         reserve_bricks == other.reserve_bricks && margin == other.margin &&
-         check_values == other.check_values && keep == other.keep &&
+         allow_missing == other.allow_missing && as_it_is == other.as_it_is &&
+         region == other.region && voxel_mm == other.voxel_mm && iso == other.iso &&
+         smooth == other.smooth && labels == other.labels && materials == other.materials &&
+         memory_mb == other.memory_mb && read_seconds == other.read_seconds &&
+         read_memory_mb == other.read_memory_mb && reserve_bricks == other.reserve_bricks &&
+         margin == other.margin && check_values == other.check_values &&
+         check_scan == other.check_scan && keep == other.keep &&
          drop_islands_mm3 == other.drop_islands_mm3;
 }
 
@@ -173,7 +174,8 @@ std::string to_json(const Recipe& recipe) {
               {"memory_mb", recipe.memory_mb},
               {"reserve_bricks", recipe.reserve_bricks},
               {"margin", recipe.margin},
-              {"check_values", recipe.check_values}};
+              {"check_values", recipe.check_values},
+              {"check_scan", recipe.check_scan}};
   const auto text = [&out](const char* name, const std::string& value) {
     if (!value.empty()) out[name] = value;
   };
@@ -183,6 +185,7 @@ std::string to_json(const Recipe& recipe) {
   if (!recipe.spacing_mm.isZero(0))
     out["spacing_mm"] = {recipe.spacing_mm.x(), recipe.spacing_mm.y(), recipe.spacing_mm.z()};
   if (recipe.allow_missing) out["allow_missing"] = true;
+  if (recipe.as_it_is) out["as_it_is"] = true;
   if (recipe.region) {
     const Region& r = *recipe.region;
     out["region"] = {r.i[0], r.i[1], r.j[0], r.j[1], r.k[0], r.k[1]};
@@ -208,6 +211,7 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.text("series", out.series);
   fields.spacing("spacing_mm", out.spacing_mm);
   fields.yes("allow_missing", out.allow_missing);
+  fields.yes("as_it_is", out.as_it_is);
   fields.region("region", out.region);
   fields.number("voxel_mm", out.voxel_mm, 0);
   fields.level("iso", out.iso);
@@ -224,6 +228,8 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.yes_or_no("margin", out.margin);
   out.check_values = false;
   fields.yes_or_no("check_values", out.check_values);
+  out.check_scan = false;
+  fields.yes_or_no("check_scan", out.check_scan);
   if (!fields.wrong().empty())
     return error(
         fmt::format("{}: recipe.{} has the wrong type or is out of range; the file is damaged",

@@ -45,7 +45,8 @@ struct Recipe {
   std::string source;  // a file, a DICOM folder, or phantom:NAME
   std::string series;  // of a DICOM folder: a UID, its beginning, or "#2"; empty: the best one
   math::Vec3 spacing_mm = {0, 0, 0};  // all > 0: overrides the file
-  bool allow_missing = false;         // go on though slices could not be read
+  bool allow_missing = false;         // go on though slices could not be read, or are not there
+  bool as_it_is = false;              // go on though the scan contradicts itself or is no CT
   std::optional<Region> region;       // none: the whole scan
   double voxel_mm = 0;                // edge of the cubic voxels; 0: the finest axis of the scan,
                                       // coarser if memory_mb requires it
@@ -67,6 +68,10 @@ struct Recipe {
   // The header's word on the values is checked, and the level of a scan without HU is estimated.
   // false: as burr did before 2026-11-26; a recipe in JSON that does not name it is of that time.
   bool check_values = true;
+  // What should be there is compared with what is there, a scan that contradicts itself is
+  // questioned, and inverted values are turned. false: as burr did before 2026-11-29; a recipe in
+  // JSON that does not name it is of that time.
+  bool check_scan = true;
 
   bool operator==(const Recipe& other) const;
 };

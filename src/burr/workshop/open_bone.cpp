@@ -39,8 +39,9 @@ void describe(const volume::Bone& bone, const char* format, importing::ImportSum
 Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progress& progress) {
   const std::string name = scenario::phantom_name(recipe.source);
   if (!recipe.series.empty() || !recipe.spacing_mm.isZero(0) || recipe.region || recipe.iso ||
-      recipe.allow_missing || !recipe.labels.empty() || recipe.read_seconds != 0 ||
-      recipe.read_memory_mb != 0 || !recipe.keep.all() || recipe.drop_islands_mm3 != 0)
+      recipe.allow_missing || recipe.as_it_is || !recipe.labels.empty() ||
+      recipe.read_seconds != 0 || recipe.read_memory_mb != 0 || !recipe.keep.all() ||
+      recipe.drop_islands_mm3 != 0)
     return error(Trouble::usage,
                  "a phantom is a formula: only --voxel-mm and --materials apply to it");
   std::function<void(volume::TissueTable&)> made_of;
@@ -95,8 +96,8 @@ bool is_whole_bone(const std::string& source) {
 }
 
 io::ReadOptions read_options(const scenario::Recipe& recipe) {
-  return {recipe.series, recipe.spacing_mm, recipe.check_values, recipe.read_seconds,
-          recipe.read_memory_mb};
+  return {recipe.series,     recipe.spacing_mm,   recipe.check_values,
+          recipe.check_scan, recipe.read_seconds, recipe.read_memory_mb};
 }
 
 Result<importing::Imported> open_bone(const scenario::Recipe& recipe, Progress& progress,

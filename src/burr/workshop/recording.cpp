@@ -150,7 +150,9 @@ std::shared_ptr<const volume::Greys> greys_of(const record::Player& player,
   if (!print || *print != player.info().volume.source_fingerprint) return nullptr;
   scenario::Recipe answered = given;  // what was asked when the recording was made
   answered.allow_missing = player.info().volume.recipe.allow_missing;
+  answered.as_it_is = player.info().volume.recipe.as_it_is;
   answered.check_values = player.info().volume.recipe.check_values;
+  answered.check_scan = player.info().volume.recipe.check_scan;
   const auto scan = io::read_scan(given.source, read_options(answered), progress);
   if (!scan) return nullptr;
   const auto plan = importing::plan_import(*scan, answered);

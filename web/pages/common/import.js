@@ -95,7 +95,7 @@ function close_worker() {
 function recipe() {
   const value = (id) => dialog.querySelector(id).valueAsNumber;
   const memory = value('#own_memory');
-  const asked = {memory_mb: Math.min(kMostMemory, Math.max(kLeastMemory, memory || kMemory)), allow_missing: true};
+  const asked = {memory_mb: Math.min(kMostMemory, Math.max(kLeastMemory, memory || kMemory)), allow_missing: true, as_it_is: true};  // what is doubtful is said before the bone is made
   if (!state.plan?.labels && Number.isFinite(value('#own_level'))) asked.iso = value('#own_level');
   const region = ['i', 'j', 'k'].flatMap((axis) => [value(`#own_${axis}0`), value(`#own_${axis}1`)]);
   if (region.every((one) => Number.isInteger(one))) asked.region = region;

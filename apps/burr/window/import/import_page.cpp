@@ -170,19 +170,25 @@ void ImportPage::take_spacing() {
 }
 
 bool ImportPage::asked() const {
-  for (const io::Question& question : opened_.scan->questions)
-    if (question.ask == io::Ask::missing ? !volume_.allow_missing
-                                         : !(volume_.spacing_mm.array() > 0).all())
-      return true;
-  return false;
+  const auto& all = opened_.scan->questions;
+  return std::any_of(all.begin(), all.end(), [&](const io::Question& question) {
+    return !importing::answered(question, volume_);
+  });
 }
 
 void ImportPage::take_as_it_is() {
-  for (const io::Question& question : opened_.scan->questions)
-    if (question.ask == io::Ask::missing)
-      volume_.allow_missing = true;
-    else
-      volume_.spacing_mm = opened_.scan->spacing_mm;
+  for (const io::Question& question : opened_.scan->questions) switch (question.ask) {
+      case io::Ask::missing:
+      case io::Ask::absent:
+        volume_.allow_missing = true;
+        break;
+      case io::Ask::spacing:
+        volume_.spacing_mm = opened_.scan->spacing_mm;
+        break;
+      case io::Ask::doubt:
+        volume_.as_it_is = true;
+        break;
+    }
   changed();
 }
 

@@ -72,7 +72,7 @@ void SeriesPage::work() {
   makes_ = static_cast<std::size_t>(next - pictures_.begin());
   scenario::Recipe one = recipe_;
   one.series = fmt::format("#{}", makes_ + 1);
-  one.allow_missing = true;  // only for the picture
+  one.allow_missing = one.as_it_is = true;  // only for the picture
   making_ =
       std::make_unique<Loading<render::Image>>([one](Progress& progress) -> Result<render::Image> {
         auto opened = open_scan(one, progress);

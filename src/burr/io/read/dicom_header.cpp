@@ -32,10 +32,11 @@ constexpr Tag kWanted[] = {
     0x00080060, 0x00080100, 0x00080102, 0x00080104, 0x00080119, 0x0008103E, 0x00089007, 0x00180050,
     0x00180060, 0x00180081, 0x00180088, 0x00181060, 0x00181210, 0x00182005, 0x00189074, 0x00189082,
     0x0020000D, 0x0020000E, 0x00200011, 0x00200012, 0x00200013, 0x00200032, 0x00200037, 0x00200052,
-    0x00200100, 0x00201041, 0x00209056, 0x00209128, 0x00209153, 0x00209156, 0x00209157, 0x00209241,
-    0x00280002, 0x00280004, 0x00280008, 0x00280010, 0x00280011, 0x00280030, 0x00280100, 0x00280101,
-    0x00280102, 0x00280103, 0x00280120, 0x00280121, 0x00281052, 0x00281053, 0x00281054, 0x00620001,
-    0x00620004, 0x00620005, 0x0062000B, 0x0062000D, 0x0062000E, 0x3004000C};
+    0x00200100, 0x00201002, 0x00201041, 0x00201209, 0x00209056, 0x00209128, 0x00209153, 0x00209156,
+    0x00209157, 0x00209161, 0x00209162, 0x00209163, 0x00209241, 0x00280002, 0x00280004, 0x00280008,
+    0x00280010, 0x00280011, 0x00280030, 0x00280100, 0x00280101, 0x00280102, 0x00280103, 0x00280120,
+    0x00280121, 0x00281052, 0x00281053, 0x00281054, 0x00620001, 0x00620004, 0x00620005, 0x0062000B,
+    0x0062000D, 0x0062000E, 0x20500020, 0x3004000C};
 
 bool wanted(Tag tag) { return std::binary_search(std::begin(kWanted), std::end(kWanted), tag); }
 
@@ -539,6 +540,11 @@ void take_facts(const Walker& set, DicomHeader& header) {
   header.description = text_of(top, 0x0008103E);
   header.photometric = text_of(top, 0x00280004);
   header.rescale_type = text_of(top, 0x00281054);
+  header.inverted = header.photometric == "MONOCHROME1" || text_of(top, 0x20500020) == "INVERSE";
+  header.images_in_acquisition = std::max(0, whole(top, 0x00201002, 0));
+  header.instances_in_series = std::max(0, whole(top, 0x00201209, 0));
+  header.described_frames = static_cast<int>(set.frames.size());
+  header.concatenation = text_of(top, 0x00209161);
   for (const Values* inside : {&set.shared, set.frames.empty() ? nullptr : &set.frames.front()})
     if (inside != nullptr && header.kernel.empty()) header.kernel = text_of(*inside, 0x00181210);
   header.series_number = whole(top, 0x00200011, 0);
@@ -560,6 +566,8 @@ void take_facts(const Walker& set, DicomHeader& header) {
   header.high_bit = number(0x00280102, header.bits_stored - 1);
   header.is_signed = number(0x00280103, 0) == 1;
   header.frame_count = whole(top, 0x00280008, 1);
+  header.part = number(0x00209162, 0);
+  header.parts = number(0x00209163, 0);
   header.most_fractional = number(0x0062000E, 0);
   header.has_padding = top.count(0x00280120) != 0 && top.at(0x00280120).size() >= 2;
   if (header.has_padding) {

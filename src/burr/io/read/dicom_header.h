@@ -76,6 +76,12 @@ struct DicomHeader {
   bool is_signed = false, has_modality_lut = false, has_padding = false, padding_range = false;
   std::int64_t padding = 0, padding_end = 0;  // stored values
   double between_slices_mm = 0;
+  bool inverted = false;  // dark is dense: MONOCHROME1, or a Presentation LUT Shape of INVERSE
+  // What the header says should be there; 0: it does not say.
+  int images_in_acquisition = 0, instances_in_series = 0;
+  int described_frames = 0;   // items of the Per-Frame Functional Groups Sequence
+  std::string concatenation;  // UID; this file is part `part` of `parts`
+  int part = 0, parts = 0;
   std::vector<DicomFrame> frames;  // (frame_count)
 
   // of a segmentation

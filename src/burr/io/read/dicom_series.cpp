@@ -125,6 +125,7 @@ void sort_in(Found& found, DicomHeader header) {
   }
   if (!verdict.reason.empty()) {
     ++found.others;
+    if (!verdict.damaged) ++found.others_of[header.series];
     // a damaged slice says more than a file that is something else
     if (verdict.damaged || found.unread.empty()) {
       found.last_reason = fmt::format("{}: {}", short_name(header.path), verdict.reason);
@@ -280,6 +281,41 @@ void join_single_pictures(std::vector<Series>& all) {
   all.erase(all.begin() + static_cast<std::ptrdiff_t>(kept), all.end());
 }
 
+// A path as it can be compared with one of a DICOMDIR: discs write names in large letters, and with
+// a version (";1") or a dot at their end.
+std::string comparable(const std::filesystem::path& path) {
+  std::string name = lower(path.lexically_normal().string());
+  if (name.ends_with(";1")) name.resize(name.size() - 2);
+  while (name.ends_with(".")) name.pop_back();
+  return name;
+}
+
+// Looks for the pictures that indexes list: by their UID, and by their place.
+void look_for_listed(const std::vector<std::filesystem::path>& indexes,
+                     const std::vector<std::filesystem::path>& paths, Found& found) {
+  if (indexes.empty()) return;
+  std::map<std::string, std::string> by_place, by_instance;  // to the UID of the series
+  for (const std::filesystem::path& path : paths) by_place[comparable(path)];
+  for (const Series& series : found.series)
+    for (const DicomHeader& file : series.files) {
+      by_place[comparable(file.path)] = series.uid;
+      if (!file.sop_instance.empty()) by_instance[file.sop_instance] = series.uid;
+    }
+  for (const std::filesystem::path& index : indexes)
+    for (Listed& listed : read_dicomdir(index)) {
+      if (found.listed.size() >= kMostFiles) return;
+      Indexed one{std::move(listed), false, ""};
+      auto at = by_instance.find(one.listed.instance);
+      one.there = !one.listed.instance.empty() && at != by_instance.end();
+      if (!one.there && !one.listed.file.empty()) {
+        at = by_place.find(comparable(index.parent_path() / one.listed.file));
+        one.there = at != by_place.end();
+      }
+      if (one.there) one.series = at->second;
+      found.listed.push_back(std::move(one));
+    }
+}
+
 }  // namespace
 
 std::pair<std::string, std::string> place_of(const std::filesystem::path& path) {
@@ -306,20 +342,25 @@ Result<Found> find_series(const std::filesystem::path& path, Progress& progress)
     if (!inside) return inside.error();
     paths = std::move(*inside);
   }
+  std::vector<std::filesystem::path> indexes;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (i % 32 == 0) {
       progress.report(static_cast<double>(i) / static_cast<double>(paths.size()),
                       "searching the files");
       if (progress.cancelled()) return error(Trouble::interrupted, "reading was stopped");
     }
-    if (lower(paths[i].filename().string()) == "dicomdir" && paths.size() > 1)
-      continue;  // an index, often out of date
+    if (lower(paths[i].filename().string()) == "dicomdir" &&
+        (paths.size() > 1 || is_dicomdir(paths[i]))) {
+      indexes.push_back(paths[i]);
+      continue;
+    }
     auto header = read_dicom_header(paths[i]);
     if (header)
       sort_in(found, std::move(*header));
     else
       sort_out(found, paths[i], header.error());
   }
+  look_for_listed(indexes, paths, found);
   join_single_pictures(found.series);
   return found;
 }

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/io/read/dicom_header.h"
+#include "burr/io/read/dicomdir.h"
 #include "burr/io/read/read_options.h"
 #include "burr/io/scan.h"
 
@@ -52,11 +54,20 @@ struct Unread {
   std::string why;     // "cut off", "empty"
 };
 
+// A picture that a DICOMDIR lists.
+struct Indexed {
+  Listed listed;
+  bool there = false;
+  std::string series;  // UID in the file itself, if it is there and a slice
+};
+
 struct Found {
   std::vector<Series> series;
   std::vector<DicomHeader> segmentations;  // dicom_seg.h
   std::vector<Unread> unread;
-  std::size_t others = 0;       // files that are not slices
+  std::size_t others = 0;                        // files that are not slices
+  std::map<std::string, std::size_t> others_of;  // of these, whole ones of each series
+  std::vector<Indexed> listed;
   std::size_t leading_out = 0;  // links to files outside the folder
   std::string last_reason;      // why the last such file is not one
   Trouble last_trouble = Trouble::data;

@@ -11,12 +11,17 @@
 #include <new>
 #include <thread>
 
+#include "burr/io/read/archive.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/calibration.h"
+#include "burr/io/read/dicom_absent.h"
 #include "burr/io/read/dicom_header.h"
 #include "burr/io/read/dicom_seg.h"
 #include "burr/io/read/dicom_series.h"
+#include "burr/io/read/dicom_stack.h"
 #include "burr/io/read/geometry.h"
+#include "burr/io/read/inverted.h"
+#include "burr/io/read/modality.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
 
@@ -227,79 +232,6 @@ Status read_slices(const Series& series, const std::vector<Slice>& slices, bool 
   return fine();
 }
 
-// The position of each slice relative to the first; a notice says what is uneven.
-Status stack(const Series& series, const std::vector<Slice>& slices, Order order,
-             const std::string& file, Scan& scan, Progress& progress) {
-  const std::size_t n = slices.size();
-  if (n == 1) {
-    const double thickness = thickness_mm(series, slices.front());
-    scan.spacing_mm.z() = thickness > 0 ? thickness : 5.0;
-    return fine();
-  }
-  const DicomFrame& first = frame_of(series, slices.front());
-  std::vector<SlicePlace> places(n);
-  std::vector<double> gaps;
-  double widest_shift = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const DicomFrame& frame = frame_of(series, slices[k]);
-    places[k].z_mm = slices[k].along_mm - slices.front().along_mm;
-    if (order == Order::positions) {
-      const Vec3 off = frame.position_mm - first.position_mm;
-      places[k].x_mm = off.dot(first.row);
-      places[k].y_mm = off.dot(first.column);
-    }
-    widest_shift = std::max(widest_shift, std::hypot(places[k].x_mm, places[k].y_mm));
-    if (k > 0) gaps.push_back(places[k].z_mm - places[k - 1].z_mm);
-  }
-  std::vector<double> sorted = gaps;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
-  const double gap = sorted[sorted.size() / 2];
-  const double even = places.back().z_mm / static_cast<double>(n - 1);
-  if (!(gap > 1e-3) || places.back().z_mm > 5000)
-    return error(fmt::format(
-        "{}: the slices are {:.3g} mm apart, which is not possible; choose another series", file,
-        gap));
-
-  // even to a hundredth of a gap, because headers round positions
-  std::string where;
-  int uneven = 0;
-  for (std::size_t k = 0; k < gaps.size(); ++k) {
-    if (std::abs(gaps[k] - gap) <= std::max(0.02 * gap, 0.011)) continue;
-    if (++uneven <= 5)
-      where +=
-          fmt::format("{}{} and {} ({:.3g} mm)", where.empty() ? "" : ", ", k + 1, k + 2, gaps[k]);
-  }
-  const bool drifting = uneven == 0 && std::abs(even - gap) > 0.02 * gap;
-  if (uneven > 0 && *std::max_element(gaps.begin(), gaps.end()) > 25 * gap)
-    return error(
-        fmt::format("{}: slices are missing: a gap of {:.3g} mm where {:.3g} mm is usual; copy the "
-                    "files again or choose another series",
-                    file, *std::max_element(gaps.begin(), gaps.end()), gap));
-  scan.spacing_mm.z() = even;
-  const double finest = std::min(scan.spacing_mm.x(), scan.spacing_mm.y());
-  const bool shifted = widest_shift > 0.05 * finest;
-  if (!shifted && uneven == 0 && !drifting) return fine();
-
-  if (uneven > 0)
-    scan.notices.push_back(
-        fmt::format("The slices are unevenly spaced: {} of {} gaps are not {:.3g} mm, between "
-                    "slices {}{}; they were resampled to an even spacing.",
-                    uneven, gaps.size(), gap, where, uneven > 5 ? " and others" : ""));
-  if (shifted) {
-    const double lean =
-        std::atan2(std::hypot(places.back().x_mm, places.back().y_mm), places.back().z_mm);
-    scan.notices.push_back(
-        fmt::format("The slices are shifted against each other (gantry tilt of {:.1f} degrees); "
-                    "they were resampled upright.",
-                    lean * 180 / M_PI));
-  }
-  const double wanted = uneven > 0 ? gap : even;
-  if (!shifted)
-    for (SlicePlace& place : places) place.x_mm = place.y_mm = 0;
-  return resample_upright(scan, places, wanted, progress);
-}
-
 // Takes out the slices whose files could not be read.
 void drop_lost(const std::vector<bool>& lost, std::vector<Slice>& slices, Scan& scan) {
   const std::size_t pixels =
@@ -318,9 +250,10 @@ void drop_lost(const std::vector<bool>& lost, std::vector<Slice>& slices, Scan& 
   scan.values.resize(pixels * kept);
 }
 
-// The files of this series that could not be read: all are counted, the first few named.
-void say_unread(const Found& found, const Series& series, const Reading& reading,
-                const std::string& file, Scan& scan) {
+// The files of this series that could not be read: all are counted, the first few named. Returns how
+// many there are.
+std::size_t say_unread(const Found& found, const Series& series, const Reading& reading,
+                       const std::string& file, Scan& scan) {
   std::vector<Unread> own = reading.unread;
   const bool only_one = found.series.size() == 1;
   std::size_t elsewhere = 0;
@@ -337,7 +270,7 @@ void say_unread(const Found& found, const Series& series, const Reading& reading
   if (elsewhere > 0)
     scan.notices.push_back(
         fmt::format("{} other files in the folder are damaged or cannot be read.", elsewhere));
-  if (own.empty()) return;
+  if (own.empty()) return 0;
   std::sort(own.begin(), own.end(),
             [](const Unread& a, const Unread& b) { return a.path < b.path; });
   constexpr std::size_t kNamed = 5;
@@ -349,6 +282,7 @@ void say_unread(const Found& found, const Series& series, const Reading& reading
   scan.ask(Ask::missing, fmt::format("{}: {} of {} files could not be read, so slices are missing, "
                                      "perhaps at an end of the scan ({})",
                                      file, own.size(), all, names));
+  return own.size();
 }
 
 // What the header says of the values.
@@ -447,6 +381,11 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   auto found = find_series(path, progress);
   if (!found) return found.error();
   if (found->series.empty() && found->segmentations.empty()) {
+    if (!found->listed.empty() && found->others == 0)
+      return error(
+          fmt::format("{}: its DICOMDIR lists {} pictures, and none of them is here; copy the "
+                      "whole disc, or give the folder that holds them",
+                      file, found->listed.size()));
     if (found->others == 1 && !found->last_reason.empty())
       return error(found->last_trouble, found->last_reason);
     return error(fmt::format("{}: none of its {} files is a slice of a scan (for example {})", file,
@@ -497,8 +436,9 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
         "The file has a table of values (Modality LUT); burr does not apply it, so the values are "
         "not HU.");
   say_header(series, slices, file, scan);
-  if (h.photometric == "MONOCHROME1")
+  if (h.inverted && !options.check_scan)
     scan.notices.emplace_back("The picture is inverted (MONOCHROME1): dark is dense here.");
+  if (options.check_scan) take_modality(h.modality, h.sop_class, file, scan);
 
   Reading reading;
   if (Status status = read_slices(series, slices, options.check_values, scan, reading, progress);
@@ -507,7 +447,10 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   if (!reading.unread.empty()) drop_lost(reading.lost, slices, scan);
   if (options.check_values)
     if (Status status = judge(claim, reading, file, scan); !status) return status.error();
-  say_unread(*found, series, reading, file, scan);
+  if (h.inverted && options.check_scan) turn_inverted(scan, file);
+  const std::size_t unread = say_unread(*found, series, reading, file, scan);
+  const bool folder = std::filesystem::is_directory(path) || files_in_archive(path);
+  if (options.check_scan) say_absent(*found, series, volume, {unread, folder}, file, scan);
   if (reading.beyond > 0)
     scan.notices.push_back(fmt::format(
         "{} pixels have bits beyond the {} that Bits Stored states; these bits were left out, as "
@@ -519,7 +462,9 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   scan.axes.col(1) = first.column;
   scan.axes.col(2) = first.row.cross(first.column);
   scan.origin_mm = first.position_mm;
-  if (Status status = stack(series, slices, volume.order, file, scan, progress); !status)
+  if (Status status =
+          stack(series, slices, {volume.order, options.check_scan}, file, scan, progress);
+      !status)
     return status.error();
   if (slices.size() == 1)
     scan.notices.emplace_back(

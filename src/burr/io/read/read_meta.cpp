@@ -9,6 +9,7 @@
 #include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/geometry.h"
+#include "burr/io/read/modality.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
 #include "burr/io/read/text.h"
@@ -230,6 +231,16 @@ Result<Affine> affine_of(const Header& header, std::vector<std::string>& notices
   return affine;
 }
 
+// "MET_MOD_MR" as DICOM says it; empty: not stated, or another word.
+std::string modality_in(const Header& header) {
+  constexpr std::string_view kBefore = "MET_MOD_";
+  const std::string text = header.get({"Modality"});
+  if (!text.starts_with(kBefore)) return {};
+  const std::string kind = text.substr(kBefore.size());
+  const bool known = kind == "CT" || kind == "MR" || kind == "NM" || kind == "US";
+  return known ? kind : std::string();
+}
+
 }  // namespace
 
 Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& options,
@@ -253,6 +264,8 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
                                 scan, progress);
       !read)
     return read.error();
+  if (options.check_scan && scan.labels.empty())
+    take_modality(modality_in(header), "", header.file, scan);
   const auto affine = affine_of(header, scan.notices);
   if (!affine) return affine.error();
   if (Status placed = place(scan, *affine, options.spacing_mm, header.file, progress); !placed)

@@ -7,13 +7,16 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <system_error>
 
 #include <Eigen/Geometry>
 
 #include "burr/io/read/bytes.h"
+#include "burr/io/read/compare_frames.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/label_lists.h"
+#include "burr/io/read/modality.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
 #include "burr/io/read/text.h"
@@ -34,6 +37,7 @@ struct Nifti {
   bool big_endian = false, pair = false;
   std::array<std::int64_t, 8> dim{};
   std::array<double, 8> pixdim{};
+  std::string description;
   int datatype = 0, qform = 0, sform = 0, units = 0;
   double offset = 0, slope = 0, intercept = 0;
   Vec3 quaternion = Vec3::Zero(), quaternion_offset = Vec3::Zero();
@@ -91,6 +95,9 @@ Result<Nifti> parse(const std::vector<std::uint8_t>& bytes, const std::string& f
     n.dim[i] = two ? at.get<std::int64_t>(16 + 8 * i) : at.get<std::int16_t>(40 + 2 * i);
     n.pixdim[i] = two ? at.get<double>(104 + 8 * i) : double{at.get<float>(76 + 4 * i)};
   }
+  constexpr std::size_t kDescription = 80;  // bytes
+  const auto text = bytes.begin() + (two ? 240 : 148);
+  n.description.assign(text, text + kDescription);
   n.datatype = at.get<std::int16_t>(two ? 12 : 70);
   n.offset = two ? static_cast<double>(at.get<std::int64_t>(168)) : double{at.get<float>(108)};
   n.slope = two ? at.get<double>(176) : double{at.get<float>(112)};
@@ -165,21 +172,19 @@ std::string type_name(int datatype) {
   }
 }
 
-// ras = step * ijk + origin: from sform, else qform, else the spacing alone
-Affine affine_of(const Nifti& n, Scan& scan) {
-  const double unit = (n.units & 7) == 1 ? 1000.0 : (n.units & 7) == 3 ? 1e-3 : 1.0;
-  Affine affine;
-  bool found = false;
-  if (n.sform > 0) {
-    affine.step = n.rows.leftCols<3>();
-    affine.origin = n.rows.col(3);
-    affine.step *= unit;
-    affine.origin *= unit;
-    found = usable(affine);
-    if (!found) scan.notices.emplace_back("The sform of the file is not valid and was ignored.");
-  }
+double mm_per_unit(const Nifti& n) {
+  return (n.units & 7) == 1 ? 1000.0 : (n.units & 7) == 3 ? 1e-3 : 1.0;
+}
+
+Affine in_mm(Affine affine, const Nifti& n) {
+  affine.step *= mm_per_unit(n);
+  affine.origin *= mm_per_unit(n);
+  return affine;
+}
+
+// pixdim, with 1 where it states nothing; `guessed` is set then.
+Vec3 spacing_of(const Nifti& n, bool& guessed) {
   Vec3 spacing(n.pixdim[1], n.pixdim[2], n.pixdim[3]);
-  bool guessed = false;
   for (int a = 0; a < 3; ++a) {
     spacing[a] = std::abs(spacing[a]);
     if (!std::isfinite(spacing[a]) || spacing[a] == 0) {
@@ -187,34 +192,86 @@ Affine affine_of(const Nifti& n, Scan& scan) {
       guessed = true;
     }
   }
-  if (!found && n.qform > 0) {
-    const double b = n.quaternion.x(), c = n.quaternion.y(), d = n.quaternion.z();
-    const double rest = 1.0 - (b * b + c * c + d * d);
-    Eigen::Quaterniond q(rest > 0 ? std::sqrt(rest) : 0.0, b, c, d);
-    if (q.coeffs().allFinite() && q.norm() > 0.5) {
-      q.normalize();
-      const double mirror = n.pixdim[0] < 0 ? -1 : 1;
-      affine.step =
-          q.toRotationMatrix() * Vec3(spacing.x(), spacing.y(), mirror * spacing.z()).asDiagonal();
-      affine.origin = n.quaternion_offset;
-      affine.step *= unit;
-      affine.origin *= unit;
-      found = usable(affine);
-    }
+  return spacing;
+}
+
+// ras = step * ijk + origin, as the sform states it; nothing: it does not.
+std::optional<Affine> sform_of(const Nifti& n) {
+  if (n.sform <= 0) return std::nullopt;
+  Affine affine;
+  affine.step = n.rows.leftCols<3>();
+  affine.origin = n.rows.col(3);
+  return in_mm(affine, n);
+}
+
+// The same by the qform.
+std::optional<Affine> qform_of(const Nifti& n, const Vec3& spacing) {
+  if (n.qform <= 0) return std::nullopt;
+  const double b = n.quaternion.x(), c = n.quaternion.y(), d = n.quaternion.z();
+  const double rest = 1.0 - (b * b + c * c + d * d);
+  Eigen::Quaterniond q(rest > 0 ? std::sqrt(rest) : 0.0, b, c, d);
+  if (!q.coeffs().allFinite() || !(q.norm() > 0.5)) return std::nullopt;
+  q.normalize();
+  const double mirror = n.pixdim[0] < 0 ? -1 : 1;
+  Affine affine;
+  affine.step =
+      q.toRotationMatrix() * Vec3(spacing.x(), spacing.y(), mirror * spacing.z()).asDiagonal();
+  affine.origin = n.quaternion_offset;
+  affine = in_mm(affine, n);
+  return usable(affine) ? std::optional(affine) : std::nullopt;
+}
+
+// What else the file says of the place that its sform states: the qform, or pixdim alone, which
+// states the spacing. A pixdim of ones was never set.
+void compare_with_sform(const Nifti& n, const Affine& sform, const Vec3& spacing, bool guessed,
+                        const std::string& file, Scan& scan) {
+  const StatedFrame used{sform, "sform"};
+  if (const auto qform = qform_of(n, spacing)) {
+    compare_frames(used, {*qform, "qform"}, file, scan);
+  } else if (!guessed && !spacing.isOnes(1e-6)) {
+    Affine sized = sform;
+    for (int a = 0; a < 3; ++a)
+      sized.step.col(a) = sform.step.col(a).normalized() * spacing[a] * mm_per_unit(n);
+    // of this only the size is a statement of the file
+    if ((sized.step - sform.step).norm() > 0.02 * sform.step.norm() && usable(sized))
+      compare_frames(used, {sized, "pixdim"}, file, scan);
   }
-  if (!found) {
-    affine.step = (unit * spacing).asDiagonal();
-    affine.origin = Vec3::Zero();
+}
+
+// From the sform, else the qform, else the spacing alone.
+Affine affine_of(const Nifti& n, const std::string& file, bool check_scan, Scan& scan) {
+  bool guessed = false;
+  const Vec3 spacing = spacing_of(n, guessed);
+  auto found = sform_of(n);
+  if (found && !usable(*found)) {
+    scan.notices.emplace_back("The sform of the file is not valid and was ignored.");
+    found.reset();
+  }
+  if (found && check_scan) compare_with_sform(n, *found, spacing, guessed, file, scan);
+  if (!found) found = qform_of(n, spacing);
+  Affine affine;
+  if (found) {
+    affine = *found;
+  } else {
+    affine.step = (mm_per_unit(n) * spacing).asDiagonal();
     scan.notices.emplace_back(
         "The file does not state its orientation: right, anterior, superior is assumed.");
+    if (guessed)
+      scan.notices.emplace_back(
+          "The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.");
   }
-  if (guessed && !found)
-    scan.notices.emplace_back(
-        "The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.");
   const Mat3 lps_from_ras = Vec3(-1, -1, 1).asDiagonal();
   affine.step = lps_from_ras * affine.step;
   affine.origin = lps_from_ras * affine.origin;
   return affine;
+}
+
+// NIfTI states no modality. Converters write the echo time of an MR into the description, and only
+// an MR has one.
+bool described_as_mr(const Nifti& n) {
+  const std::size_t at = n.description.find("TE=");
+  return at != std::string::npos && at + 3 < n.description.size() && n.description[at + 3] >= '0' &&
+         n.description[at + 3] <= '9';
 }
 
 // "x.hdr.gz" <-> "x.img.gz"; each part may be compressed or not
@@ -351,7 +408,9 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
   if (Status status = sink.finish(scan, sure, options.check_values); !status)
     return error(fmt::format("{}: {}", file, status.error().text));
   if (scan.labels.empty()) scan.label_names.clear();
-  const Affine affine = affine_of(*header, scan);
+  const Affine affine = affine_of(*header, file, options.check_scan, scan);
+  if (options.check_scan && !scan.hounsfield && scan.labels.empty() && described_as_mr(*header))
+    take_modality("MR", "", file, scan);
   if (Status status = place(scan, affine, options.spacing_mm, file, progress); !status)
     return status.error();
   return scan;

@@ -11,6 +11,7 @@
 
 #include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
+#include "burr/io/read/compare_frames.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/label_lists.h"
 #include "burr/io/read/readers.h"
@@ -371,7 +372,27 @@ Mat3 lps_from_space(const std::string& space, const std::string& file, Scan& sca
   return Mat3::Identity();
 }
 
-Affine affine_of(const Header& header, const Shape& shape, const std::string& file, Scan& scan) {
+// The standard allows either space directions or spacings for an axis. Where a file has both, they
+// must agree.
+void compare_with_spacings(const std::vector<std::string>& spacings, const Shape& shape,
+                           const Affine& directions, const std::string& file, Scan& scan) {
+  Affine sized = directions;
+  bool commas = false;
+  for (std::size_t a = 0; a < 3; ++a) {
+    double step = 0;
+    if (shape.axes[a] >= spacings.size() || !to_number(spacings[shape.axes[a]], step, commas) ||
+        !std::isfinite(step) || step == 0)
+      return;
+    const auto axis = static_cast<Eigen::Index>(a);
+    sized.step.col(axis) = directions.step.col(axis).normalized() * std::abs(step);
+  }
+  if (usable(sized) && usable(directions) &&
+      (sized.step - directions.step).norm() > 0.02 * directions.step.norm())
+    compare_frames({directions, "space directions"}, {sized, "spacings"}, file, scan);
+}
+
+Affine affine_of(const Header& header, const Shape& shape, const std::string& file, bool check_scan,
+                 Scan& scan) {
   const auto get = [&](const char* name) {
     const auto found = header.fields.find(name);
     return found == header.fields.end() ? std::string() : found->second;
@@ -400,6 +421,8 @@ Affine affine_of(const Header& header, const Shape& shape, const std::string& fi
     directed = move.size() == 3;
     if (directed) affine.step.col(static_cast<Eigen::Index>(a)) = Vec3(move[0], move[1], move[2]);
   }
+  if (directed && check_scan)
+    compare_with_spacings(words(get("spacings")), shape, affine, file, scan);
   if (!directed) {
     affine.step.setIdentity();
     const std::vector<std::string> spacings = words(get("spacings"));
@@ -655,7 +678,7 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
   Status status = layers > 1 ? sink.finish_layers(scan, layers, shape->layers_first, named.layers)
                              : sink.finish(scan, segmentation, options.check_values);
   if (!status) return error(fmt::format("{}: {}", file, status.error().text));
-  const Affine affine = affine_of(*header, *shape, file, scan);
+  const Affine affine = affine_of(*header, *shape, file, options.check_scan, scan);
   status = place(scan, affine, options.spacing_mm, file, progress);
   if (!status) return status.error();
   return scan;

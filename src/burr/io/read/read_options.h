@@ -16,6 +16,9 @@ struct ReadOptions {
   // What the header says of its values is checked against them (calibration.h). false: as burr read
   // scans before 2026-11-26, for the recordings of that time.
   bool check_values = true;
+  // Inverted values are turned, and what should be there is compared with what is there. false: as
+  // burr read scans before 2026-11-29, for the recordings of that time.
+  bool check_scan = true;
   // Limits of the fence; 0: chosen from the size of the files. They are far above what reading
   // needs; only a damaged or hostile file, or a very strongly compressed one, reaches them.
   double seconds = 0;    // of processor time; also the longest time without progress [s]

@@ -105,7 +105,7 @@ class Unpacker {
 };
 
 // both sides must agree about this, structs included
-std::string version() { return std::string("fence 6 of burr ") + base::version(); }
+std::string version() { return std::string("fence 7 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {
   switch (static_cast<Trouble>(number)) {
@@ -128,6 +128,7 @@ void pack_scan(Packer& to, const Scan& scan) {
   to.put(scan.outside.value_or(0.0F));
   to.put(static_cast<std::uint8_t>(scan.k_reversed));
   to.put(scan.format);
+  to.put(scan.modality);
   to.put(static_cast<std::uint32_t>(scan.notices.size()));
   for (const std::string& notice : scan.notices) to.put(notice);
   to.put(static_cast<std::uint32_t>(scan.series.size()));
@@ -176,6 +177,7 @@ void unpack_scan(Unpacker& from, Scan& scan) {
   if (has_outside) scan.outside = outside;
   scan.k_reversed = from.get<std::uint8_t>() != 0;
   scan.format = from.words();
+  scan.modality = from.words();
   for (std::size_t n = from.count(kMostNotices); n > 0 && from.good(); --n)
     scan.notices.push_back(from.words());
   const std::size_t series = from.count(kMostSeries);
@@ -188,7 +190,7 @@ void unpack_scan(Unpacker& from, Scan& scan) {
               static_cast<std::size_t>(scan.series_taken) < std::max<std::size_t>(series, 1));
   for (std::size_t n = from.count(kMostQuestions); n > 0 && from.good(); --n) {
     const auto ask = static_cast<Ask>(from.get<std::uint8_t>());
-    from.demand(ask == Ask::missing || ask == Ask::spacing);
+    from.demand(ask >= Ask::missing && ask <= Ask::doubt);
     scan.ask(ask, from.words());
   }
   for (std::size_t n = from.count(kMostLabels); n > 0 && from.good(); --n) {
@@ -222,6 +224,7 @@ std::size_t pack(const FenceRequest& request, std::span<std::uint8_t> letter) {
   to.put(request.options.series);
   to.put(request.options.spacing_mm);
   to.put(static_cast<std::uint8_t>(request.options.check_values));
+  to.put(static_cast<std::uint8_t>(request.options.check_scan));
   to.put(static_cast<std::uint8_t>(request.options.study));
   to.put(request.options.seconds);
   to.put(request.options.memory_mb);
@@ -235,6 +238,7 @@ bool unpack(std::span<const std::uint8_t> bytes, FenceRequest& request) {
   request.options.series = from.text();
   for (int a = 0; a < 3; ++a) request.options.spacing_mm[a] = from.get<double>();
   request.options.check_values = from.get<std::uint8_t>() != 0;
+  request.options.check_scan = from.get<std::uint8_t>() != 0;
   request.options.study = from.get<std::uint8_t>() != 0;
   request.options.seconds = from.get<double>();
   request.options.memory_mb = from.get<double>();
