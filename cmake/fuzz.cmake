@@ -24,6 +24,5 @@ endforeach()
 
 add_executable(fuzz_seeds EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/fuzz/seeds.cpp)
 target_link_libraries(fuzz_seeds PRIVATE burr_fuzzed)
-target_compile_definitions(fuzz_seeds PRIVATE BURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 set_target_properties(fuzz_seeds PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz)
 add_dependencies(fuzzers fuzz_seeds)

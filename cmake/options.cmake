@@ -1,13 +1,26 @@
 # Compiler options. A replay must be exact to the bit, so no fused multiply-add and no fast-math
 # anywhere.
+
+# A compiler's cache (ccache), where there is one. What it must be told stands in the command, so it finds a source again
+# in another folder too, whatever its user's own settings are: paths count from the project's folder, and the folder in
+# which the compiler works is no part of what is compared. For the debugger it is: there an object names its sources.
 find_program(BURR_CCACHE ccache)
 if(BURR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${BURR_CCACHE})
-  # otherwise ccache does not cache files that use a precompiled header
-  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${BURR_CCACHE})
+  # the last words: otherwise ccache does not cache files that use a precompiled header
+  set(launcher env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_ABSSTDERR=1 CCACHE_DEPEND=1
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime)
+  if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+    list(APPEND launcher CCACHE_NOHASHDIR=1)
+  endif()
+  foreach(language C CXX)
+    set(CMAKE_${language}_COMPILER_LAUNCHER ${launcher} ${BURR_CCACHE})
+  endforeach()
   if(BURR_PCH AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")
   endif()
+endif()
+if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")  # no object says in which folder it was compiled
+  add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}=.)
 endif()
 
 add_library(burr_options INTERFACE)
@@ -33,6 +46,11 @@ function(burr_common_headers target)
   if(NOT BURR_PCH OR BURR_CORE_ONLY)
     return()
   endif()
+  if(BURR_TOGETHER AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # Of clang++ they hold the folder in which they were made, so no cache would find a source again elsewhere; and where
+    # sources are compiled as one they save nothing (13.0 s with them, 12.5 s without, for a group of burr_core).
+    return()
+  endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # of a precompiled header g++ 12 warns as if it were ours: false alarms in <string>
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
   endif()
@@ -52,6 +70,8 @@ if(BURR_SANITIZE)
   target_link_options(burr_options INTERFACE -fsanitize=${BURR_SANITIZE})
   target_compile_definitions(burr_options INTERFACE BURR_SANITIZED=1)
   if(BURR_SANITIZE MATCHES "undefined")
+    # of a path the last three names, so an object is the same in another folder
+    target_compile_options(burr_options INTERFACE -fsanitize-undefined-strip-path-components=-3)
     # Checks of every pointer use: they take up to half of the compiler's time, and AddressSanitizer
     # finds most of what they would find. Code that reads files has them all (burr_reads_files).
     target_compile_options(burr_options INTERFACE -fno-sanitize=null,alignment,vptr,object-size,pointer-overflow)

@@ -5,6 +5,9 @@ include(GoogleTest)
 file(GLOB BURR_TEST_SUPPORT CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/support/*.cpp)
 add_library(burr_test_support STATIC ${BURR_TEST_SUPPORT})
 set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/rt_guard.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # it defines malloc
+# it alone knows where this checkout lies, so a compiler's cache finds all other sources again in another folder
+set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/places.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+  COMPILE_DEFINITIONS "BURR_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";BURR_BUILD_DIR=\"${CMAKE_BINARY_DIR}\"")
 target_include_directories(burr_test_support PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(burr_test_support PUBLIC burr burr_scenes GTest::gtest fmt::fmt ${CMAKE_DL_LIBS} PRIVATE burr_options)
 
@@ -67,8 +70,6 @@ foreach(room ${rooms})
     if(room STREQUAL device)
       target_link_libraries(test_device PRIVATE burr_crtk fake_haply)
     endif()
-    target_compile_definitions(test_${room} PRIVATE
-      BURR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" BURR_BUILD_DIR="${CMAKE_BINARY_DIR}")
     set(manner calls)
     if(BURR_SANITIZE MATCHES "address" AND room MATCHES "^(edit|haptics|importing|io|record|surface|tool|volume)$")
       set(manner computes)  # these tests compute for themselves what they compare with: -O1, since without it those of `edit` take four times as long

@@ -1,4 +1,4 @@
-// fuzz_seeds DIR [CORPUS]: writes small valid inputs of every kind, with which the fuzzers begin,
+// fuzz_seeds DIR PROJECT [CORPUS]: writes small valid inputs of every kind, with which the fuzzers begin,
 // to DIR/NAME/, with our own writers where we have them. Small files of a collection of test data
 // (CORPUS), if it is there, are linked beside them.
 #include <bzlib.h>
@@ -34,7 +34,7 @@ using namespace burr;
 using record::BytesOut;
 using std::string;
 
-fs::path seeds;
+fs::path seeds, project;
 
 void seed(const string& target, const string& name, const string& bytes) {
   fs::create_directories(seeds / target);
@@ -433,7 +433,7 @@ void texts() {
        "0.5\n[work]\nat_mm = [1, 2.5, -3]\ninto = [0, 0, -1]\n[burr]\ndiameter_mm = 4\nkind = "
        "\"diamond\"\nrpm = 40_000\n[demo]\nmotion = \"pocket\"\nseconds = 20\n[[spare]]\ntissue = "
        "\"bone\"\n[[target]]\ntissue = \"bone\"\ngoal = \"open\"\nshare = 0.5\n");
-  for (const fs::directory_entry& entry : fs::directory_iterator(BURR_SOURCE_DIR "/cases"))
+  for (const fs::directory_entry& entry : fs::directory_iterator(project / "cases"))
     seed("case", entry.path().filename().string(), content(entry.path()));
   seed("label_lists", "xml",
        "<LabelTable><Label Key=\"1\" Red=\"1\" Green=\"0.5\" Blue=\"0\" "
@@ -443,7 +443,7 @@ void texts() {
        R"({"labels": {"1": "bone", "2": {"name": "nerve"}}, "more": [{"name": "x", "label": 3}]})");
   seed("label_lists", "snap", "# list\n1 255 0 0 1 1 1 \"Nervus facialis\"\n");
   seed("label_lists", "free", "16 Brain-Stem 119 159 176 0\n");
-  seed("materials", "built_in", content(BURR_SOURCE_DIR "/materials/materials.toml"));
+  seed("materials", "built_in", content(project / "materials/materials.toml"));
   seed("materials", "own",
        "[[material]]\nname = \"Enamel\"\nfriction = { value = 0.3, low = 0, high = 2, source = "
        "\"a bench\", calibrated = true }\n[[material]]\nname = 'x'\nlike = 'cement'\n");
@@ -628,11 +628,12 @@ void link_small(const fs::path& corpus, const string& target, const std::vector<
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 3) {
-    std::fprintf(stderr, "usage: fuzz_seeds DIR [CORPUS]\n");
+  if (argc < 3 || argc > 4) {
+    std::fprintf(stderr, "usage: fuzz_seeds DIR PROJECT [CORPUS]      (PROJECT: the folder of burr's sources)\n");
     return 2;
   }
   seeds = argv[1];
+  project = argv[2];
   fs::remove_all(seeds);
   nrrd();
   nifti();
@@ -643,8 +644,8 @@ int main(int argc, char** argv) {
   texts();
   devices();
   recordings();
-  if (argc == 3) {
-    const fs::path corpus = argv[2];
+  if (argc == 4) {
+    const fs::path corpus = argv[3];
     link_small(corpus, "nrrd", {"nrrd", "derived/nrrd"});
     link_small(corpus, "seg_nrrd", {"nrrd"});
     link_small(corpus, "nifti", {"nifti", "derived/nifti"});

@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """Which sources of a target are compiled together, as one source that includes them (cmake/together.cmake).
 
-    scripts/together.py FOLDER TARGET < SOURCES      writes FOLDER/TARGET_N.cpp; prints these and the sources that stay alone
+    scripts/together.py FOLDER < SOURCES
+
+SOURCES: a line <NAME>, then a line for each source that may be compiled with the others of this name; and so on. Writes
+FOLDER/NAME_N.cpp; prints, after the line <NAME>, these and the sources that stay alone.
 
 Most of the time of a build goes into templates of the C++ library and of Eigen, once for each source. A source's own names
 (in a namespace without a name) get an ending by macros, so that two sources may use the same name. Where a macro would change
@@ -10,6 +13,7 @@ macro defined.
 """
 import dataclasses
 import functools
+import os
 import pathlib
 import re
 import sys
@@ -108,8 +112,11 @@ def gets_an_ending(file):
     return (own.functions | own.others) - other - declared_in_headers(text)
 
 
-def headers(file, text):
-    """The lines that include a header, but those on a condition, and headers that say something else each time."""
+def headers(file, text, folder):
+    """The lines that include a header, but those on a condition, and headers that say something else each time.
+
+    FOLDER: of the source that says these lines.
+    """
     depth, found = 0, []
     for line in text.splitlines():
         depth += bool(re.match(r" *# *if", line)) - bool(re.match(r" *# *endif", line))
@@ -117,22 +124,23 @@ def headers(file, text):
         if line and line[1].startswith("<"):
             found.append(line[0])
         elif line:
-            places = [folder / line[1].strip('"') for folder in (file.parent, *FOLDERS)]
+            places = [place / line[1].strip('"') for place in (file.parent, *FOLDERS)]
             place = next((place for place in places if place.is_file()), None)
             if place and re.search("^#pragma once$", place.read_text(errors="replace"), re.M):
-                found.append(f'#include "{place}"')
+                found.append(f'#include "{os.path.relpath(place, folder)}"')
     return found
 
 
-def unit(files):
-    """The source that includes them."""
+def unit(files, folder):
+    """The source in FOLDER that includes them, by their way from there: so it is the same in another checkout, and a
+    compiler's cache knows it."""
     texts = [file.read_text(errors="replace") for file in files]
-    first = dict.fromkeys(line for file, text in zip(files, texts) for line in headers(file, text))  # macros must not change what a header says
+    first = dict.fromkeys(line for file, text in zip(files, texts) for line in headers(file, text, folder))  # macros must not change what a header says
     said = "".join(f"{line}\n" for line in first)
     for n, file in enumerate(files):
         own = sorted(gets_an_ending(file))
         said += "".join(f"#define {name} {name}_of_{n}\n" for name in own)
-        said += f'#include "{file}"\n'
+        said += f'#include "{os.path.relpath(file, folder)}"\n'
         said += "".join(f"#undef {name}\n" for name in own)
     return said
 
@@ -167,16 +175,24 @@ def groups(files, most_bytes=MOST_BYTES):
 
 
 def main():
-    folder, target = pathlib.Path(sys.argv[1]), sys.argv[2]
+    folder = pathlib.Path(sys.argv[1]).resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    for n, files in enumerate(groups([pathlib.Path(line.strip()) for line in sys.stdin if line.strip()])):
-        if len(files) == 1:
-            print(files[0])
-            continue
-        source, text = folder / f"{target}_{n}.cpp", unit(files)
-        if not source.exists() or source.read_text() != text:
-            source.write_text(text)
-        print(source)
+    wanted = {}
+    for line in filter(None, map(str.strip, sys.stdin)):
+        if line.startswith("<"):
+            wanted[name := line.strip("<>")] = []
+        else:
+            wanted[name].append(pathlib.Path(line))
+    for name, sources in wanted.items():
+        print(f"<{name}>")
+        for n, files in enumerate(groups(sources)):
+            if len(files) == 1:
+                print(files[0])
+                continue
+            source, text = folder / f"{name}_{n}.cpp", unit(files, folder)
+            if not source.exists() or source.read_text() != text:
+                source.write_text(text)
+            print(source)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ build=build/asan/fuzz
 if [ "$name" = seeds ]; then
   collection=()
   if [ -d ../shared/data/corpus ]; then collection=(../shared/data/corpus); fi
-  exec "$build/fuzz_seeds" "$build/seeds" "${collection[@]}"
+  exec "$build/fuzz_seeds" "$build/seeds" . "${collection[@]}"
 fi
 
 [ -x "$build/fuzz_$name" ] || { echo "fuzz.sh: there is no fuzz_$name; build it: cmake --build --preset asan --target fuzzers" >&2; exit 2; }

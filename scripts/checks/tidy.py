@@ -32,7 +32,7 @@ def commands(build):
     for entry in json.loads((build / "compile_commands.json").read_text()):
         files = [pathlib.Path(entry["file"])]
         if files[0].parent.name == "together":  # several sources compiled as one (cmake/together.cmake)
-            files = [pathlib.Path(name) for name in re.findall(r'#include "(.*)"', files[0].read_text())]
+            files = [(files[0].parent / name).resolve() for name in re.findall(r'#include "(.*)"', files[0].read_text())]
         files = [file for file in files if file.is_relative_to(ROOT / "src" / "burr")]
         if files:
             words = shlex.split(entry["command"])

@@ -20,6 +20,7 @@
 #include "device/fake/fake_dhd.h"
 #include "device/stand_in.h"
 #include "support/folder.h"
+#include "support/places.h"
 #include "support/rt_guard.h"
 
 namespace burr::device::forcedimension {
@@ -29,7 +30,7 @@ using math::Vec3;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-const std::string kFakes = BURR_BUILD_DIR "/fakes/";
+const std::string kFakes = test::build_dir() + "/fakes/";
 const std::string kLibrary = kFakes + "libdrd.so";
 
 test::FakeDhd& state_of(const std::string& library) {

@@ -19,6 +19,7 @@
 #include "device/fake/fake_crtk.h"
 #include "device/fake/fake_polhem.h"
 #include "device/stand_in.h"
+#include "support/places.h"
 
 namespace burr::device {
 namespace {
@@ -216,7 +217,7 @@ TEST(Guardian, APolhemIsLetGoWhileBurrHangsAndWhenItIsKilled) {
 
 // The program itself, while milling, ends: by request, or killed.
 TEST(Guardian, TheProgramLetsGoHoweverItEnds) {
-  const std::string program = BURR_BUILD_DIR "/burr";
+  const std::string program = test::build_dir() + "/burr";
   if (::access(program.c_str(), X_OK) != 0) GTEST_SKIP() << program << " is not built here";
   for (const int end : {SIGINT, SIGTERM, SIGKILL}) {
     test::FakePolhem arm;

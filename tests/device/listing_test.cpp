@@ -12,14 +12,15 @@
 #include "device/fake/fake_haply.h"
 #include "device/stand_in.h"
 #include "support/folder.h"
+#include "support/places.h"
 
 namespace burr {
 namespace {
 
 using nlohmann::json;
 
-const std::string kProgram = BURR_BUILD_DIR "/burr";
-const std::string kFakes = BURR_BUILD_DIR "/fakes/";
+const std::string kProgram = test::build_dir() + "/burr";
+const std::string kFakes = test::build_dir() + "/fakes/";
 
 // An environment variable, set while this object lives; the program inherits it.
 class Variable {

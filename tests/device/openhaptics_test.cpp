@@ -15,6 +15,7 @@
 #include "burr/rt/flags.h"
 #include "device/fake/fake_hd.h"
 #include "device/stand_in.h"
+#include "support/places.h"
 #include "support/rt_guard.h"
 
 namespace burr::device::openhaptics {
@@ -22,7 +23,7 @@ namespace {
 
 using math::Vec3;
 
-const std::string kFakes = BURR_BUILD_DIR "/fakes/";
+const std::string kFakes = test::build_dir() + "/fakes/";
 const std::string kLibrary = kFakes + "libHD.so";
 
 struct Symbols {

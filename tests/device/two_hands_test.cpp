@@ -13,6 +13,7 @@
 #include "device/fake/fake_hd.h"
 #include "device/slab.h"
 #include "device/stand_in.h"
+#include "support/places.h"
 
 namespace burr::device {
 namespace {
@@ -22,7 +23,7 @@ using math::Vec3;
 using test::soon;
 constexpr double kMm = 1e-3;
 
-const std::string kLibrary = BURR_BUILD_DIR "/fakes/libHD.so";
+const std::string kLibrary = test::build_dir() + "/fakes/libHD.so";
 
 class TwoHands : public ::testing::Test {
  protected:

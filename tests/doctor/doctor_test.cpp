@@ -17,6 +17,7 @@
 #include "doctor/look.h"
 #include "doctor/run_in_process.h"
 #include "support/folder.h"
+#include "support/places.h"
 
 namespace burr::app {
 namespace {
@@ -182,12 +183,12 @@ TEST_F(DoctorDevices, WhatIsMissingIsSaidWithTheLoadersWordsAndWhatToInstall) {
 }
 
 TEST_F(DoctorDevices, AMissingSymbolIsNamed) {
-  ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_old.so", 1);
+  ::setenv("BURR_OPENHAPTICS", (test::build_dir() + "/fakes/libHD_old.so").c_str(), 1);
   EXPECT_NE(of("touch").value.find("hdScheduleAsynchronous"), std::string::npos);
 }
 
 TEST_F(DoctorDevices, ADeviceThatIsThereIsNamedAndCanBeTried) {
-  ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD.so", 1);
+  ::setenv("BURR_OPENHAPTICS", (test::build_dir() + "/fakes/libHD.so").c_str(), 1);
   const Finding touch = of("touch");
   EXPECT_EQ(touch.health, Health::good);
   EXPECT_NE(touch.value.find("T-0001"), std::string::npos) << touch.value;
@@ -195,7 +196,7 @@ TEST_F(DoctorDevices, ADeviceThatIsThereIsNamedAndCanBeTried) {
 }
 
 TEST_F(DoctorDevices, ADeviceThatIsThereAndInTroubleIsToldAsThat) {
-  const std::string library = BURR_BUILD_DIR "/fakes/libHD.so";
+  const std::string library = test::build_dir() + "/fakes/libHD.so";
   void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_GLOBAL);
   ASSERT_NE(loaded, nullptr);
   test::FakeHd& hd = *reinterpret_cast<test::FakeHdState>(dlsym(loaded, "fake_hd"))();
@@ -211,11 +212,11 @@ TEST_F(DoctorDevices, ADeviceThatIsThereAndInTroubleIsToldAsThat) {
 }
 
 TEST_F(DoctorDevices, ALibraryThatCrashesOrHangsDoesSoAlone) {
-  ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_crash.so", 1);
+  ::setenv("BURR_OPENHAPTICS", (test::build_dir() + "/fakes/libHD_crash.so").c_str(), 1);
   Finding touch = of("touch");
   EXPECT_EQ(touch.health, Health::trouble);
   EXPECT_NE(touch.value.find("crashed"), std::string::npos) << touch.value;
-  ::setenv("BURR_OPENHAPTICS", BURR_BUILD_DIR "/fakes/libHD_hang.so", 1);
+  ::setenv("BURR_OPENHAPTICS", (test::build_dir() + "/fakes/libHD_hang.so").c_str(), 1);
   system_.maker_timeout = milliseconds(1500);
   touch = of("touch");
   EXPECT_NE(touch.value.find("hung"), std::string::npos) << touch.value;

@@ -14,6 +14,7 @@
 #include "burr/importing/materials.h"
 #include "fit/made_up.h"
 #include "io/folder.h"
+#include "support/places.h"
 
 namespace burr::fit {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 class FitProgram : public burr::test::FolderTest {
  protected:
   void SetUp() override {
-    program_ = std::string(BURR_BUILD_DIR) + "/burr";
+    program_ = test::build_dir() + "/burr";
     ASSERT_TRUE(std::filesystem::exists(program_)) << "build the target burr first";
   }
   // The program's output, with "exit N" as the last line.

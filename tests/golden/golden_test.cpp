@@ -22,6 +22,7 @@
 
 #include "render/gpu.h"
 #include "support/folder.h"
+#include "support/places.h"
 
 namespace burr {
 namespace {
@@ -147,7 +148,7 @@ class Golden : public testing::TestWithParam<Shot> {
     return one.path();
   }
   static int run(const std::string& words) {
-    const int left = std::system((std::string(BURR_BUILD_DIR "/burr --quiet ") + words +
+    const int left = std::system((test::build_dir() + "/burr --quiet " + words +
                                   " --picture-size 240,150 > /dev/null")
                                      .c_str());
     return WIFEXITED(left) ? WEXITSTATUS(left) : -1;
@@ -168,7 +169,7 @@ TEST_P(Golden, LooksAsItDid) {
     GTEST_SKIP() << gpu.gpu() << " rounds otherwise than llvmpipe; BURR_GOLDEN_ANY_GPU=1 compares";
   const Shot& shot = GetParam();
   const std::string name = std::string(shot.name) + ".png";
-  const fs::path golden = fs::path(BURR_SOURCE_DIR) / "tests/golden" / name;
+  const fs::path golden = fs::path(test::source_dir()) / "tests/golden" / name;
   ASSERT_NO_FATAL_FAILURE(record(shot.of));
   const fs::path made = folder() / name;
   ASSERT_EQ(run("replay " + recording(shot.of).string() + " --picture " + made.string() + " " +
@@ -184,7 +185,7 @@ TEST_P(Golden, LooksAsItDid) {
   ASSERT_EQ(now->height, then->height);
   const Difference d = between(*now, *then);
   const bool same = d.mean < 0.3 && d.noticed < 0.004;
-  const fs::path kept = fs::path(BURR_BUILD_DIR) / ("golden_" + name);
+  const fs::path kept = fs::path(test::build_dir()) / ("golden_" + name);
   if (!same) fs::copy_file(made, kept, fs::copy_options::overwrite_existing);
   if (!gpu.software())
     std::printf("%s: %.3f on average, %.3f %% noticeably\n", shot.name, d.mean, 100 * d.noticed);

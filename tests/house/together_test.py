@@ -18,10 +18,10 @@ def groups(**texts):
         files = [folder / f"{name}.cpp" for name in texts]
         for file, text in zip(files, texts.values()):
             file.write_text(text)
-        done = subprocess.run([sys.executable, SCRIPT, folder / "out", "target"], input="\n".join(map(str, files)),
+        done = subprocess.run([sys.executable, SCRIPT, folder / "out"], input="\n".join(["<target>", *map(str, files)]),
                               capture_output=True, text=True, check=True)
         made = []
-        for line in done.stdout.splitlines():
+        for line in done.stdout.splitlines()[1:]:
             unit = pathlib.Path(line)
             names = [unit.stem]
             if unit.parent.name == "out":

@@ -27,6 +27,7 @@
 #include "burr/io/read/read_scan.h"
 #include "io/folder.h"
 #include "support/data.h"
+#include "support/places.h"
 
 namespace burr::io {
 namespace {
@@ -45,7 +46,7 @@ struct Outcome {
 Outcome info(const std::string& path) {
   int pipe_ends[2] = {};
   if (::pipe2(pipe_ends, O_CLOEXEC) != 0) return {};
-  const std::string program = std::string(BURR_BUILD_DIR) + "/burr";
+  const std::string program = test::build_dir() + "/burr";
   const pid_t child = ::fork();
   if (child == 0) {
     ::alarm(kHangs);
@@ -117,7 +118,7 @@ std::vector<Entry> entries() {
 // "| `a`, `b` | ... | why |"
 std::map<std::string, std::string> listed_under(const std::string& heading) {
   std::map<std::string, std::string> rows;
-  std::ifstream page(std::filesystem::path(BURR_SOURCE_DIR) / "docs" / "corpus.md");
+  std::ifstream page(std::filesystem::path(test::source_dir()) / "docs" / "corpus.md");
   bool there = false;
   for (std::string line; std::getline(page, line);) {
     if (line.rfind('#', 0) == 0) there = line.find(heading) != std::string::npos;
@@ -312,7 +313,7 @@ TEST_F(CorpusAgainst, ASecondReaderSeesTheSame) {
     if (output_of(program).find("not found") != std::string::npos)
       GTEST_SKIP() << "needs " << program;
 
-  const std::string script = std::string(BURR_SOURCE_DIR) + "/tests/io/second_readers.py";
+  const std::string script = test::source_dir() + "/tests/io/second_readers.py";
   std::istringstream answers(
       output_of("python3 '" + script + "' '" + corpus().string() + "' < '" + path("list") + "'"));
   const auto listed = listed_under("Where a second reader sees something else");

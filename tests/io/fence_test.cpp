@@ -23,6 +23,7 @@
 #include "burr/io/sandbox/fence_walls.h"
 #include "io/folder.h"
 #include "support/data.h"
+#include "support/places.h"
 
 namespace burr::io {
 namespace {
@@ -43,7 +44,7 @@ std::size_t open_files() {
 
 class Fence : public test::FolderTest {
  protected:
-  Fence() { ::setenv("BURR_READ", (std::string(BURR_BUILD_DIR) + "/naughty_reader").c_str(), 1); }
+  Fence() { ::setenv("BURR_READ", (test::build_dir() + "/naughty_reader").c_str(), 1); }
   ~Fence() override { ::unsetenv("BURR_READ"); }
 
   // Reads a file that tells the reader to do `todo`.
@@ -278,7 +279,7 @@ TEST(FenceHere, SaysHowHighItIs) {
 }
 
 TEST_F(Fence, StartedByHandTheReaderSaysSo) {
-  EXPECT_SAYS(output_of("'" BURR_BUILD_DIR "/burr-read' </dev/null"), "do not start it by hand");
+  EXPECT_SAYS(output_of("'" + test::build_dir() + "/burr-read' </dev/null"), "do not start it by hand");
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "burr/record/mcap/packed.h"
 #include "burr/record/schema.h"
 #include "record/made_up.h"
+#include "support/places.h"
 
 namespace burr::record {
 namespace {
@@ -317,7 +318,7 @@ TEST(Mcap, TheMcapProjectsOwnReaderAgrees) {
   const Folder folder;
   const auto bone = any_bone(random);
   const Truth truth = record_any(folder / "s.mcap", 12'500, 1000, *bone, random, true);
-  const std::string command = std::string("node '") + BURR_SOURCE_DIR +
+  const std::string command = "node '" + test::source_dir() +
                               "/tests/record/other_reader.cjs' '" + (folder / "s.mcap") + "' 2>&1";
   FILE* pipe = ::popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);

@@ -15,6 +15,7 @@
 #include "report/report_page.h"
 #include "report/report_words.h"
 #include "report/self_marks.h"
+#include "support/places.h"
 #include "window/shell/words.h"
 
 namespace burr::app {
@@ -183,7 +184,7 @@ TEST(ReportWords, KnowWhatTheLibraryCallsItsValues) {
   std::string library;
   for (const char* file :
        {"measure_bone.cpp", "measure_manner.cpp", "measure_recording.cpp", "measure_shape.cpp"}) {
-    std::ifstream in(std::string(BURR_SOURCE_DIR "/src/burr/scoring/") + file);
+    std::ifstream in(test::source_dir() + "/src/burr/scoring/" + file);
     library.append(std::istreambuf_iterator<char>(in), {});
   }
   for (int n = static_cast<int>(Word::what_seen); n <= static_cast<int>(Word::what_order); ++n) {

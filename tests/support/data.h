@@ -7,11 +7,13 @@
 #include <filesystem>
 #include <string>
 
+#include "support/places.h"
+
 namespace burr::test {
 
 // ../shared/data beside the checkout
 inline std::filesystem::path data_dir() {
-  return std::filesystem::path(BURR_SOURCE_DIR).parent_path() / "shared" / "data";
+  return std::filesystem::path(test::source_dir()).parent_path() / "shared" / "data";
 }
 inline bool data_required() {
   const char* required = std::getenv("BURR_REQUIRE_DATA");

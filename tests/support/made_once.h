@@ -11,15 +11,17 @@
 #include <iterator>
 #include <string>
 
+#include "support/places.h"
+
 namespace burr::test {
 
-// The folder BURR_BUILD_DIR/made/NAME, filled by `make`. Each test runs in a process of its own, and several run at
+// The folder made/NAME of the build, filled by `make`. Each test runs in a process of its own, and several run at
 // once: the first one makes the folder, the others wait for it. It is made anew after burr was built anew, and after
 // `make` was interrupted. Tests must not write into it. Empty: it could not be made, so `make` returned false.
 inline std::filesystem::path made_once(
     const std::string& name, const std::function<bool(const std::filesystem::path&)>& make) {
   namespace fs = std::filesystem;
-  const fs::path build = BURR_BUILD_DIR;
+  const fs::path build = test::build_dir();
   const fs::path folder = build / "made" / name;
   fs::create_directories(folder.parent_path());
   const int lock = ::open((folder.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);

@@ -19,6 +19,7 @@
 #include "burr/workshop/suction_hand.h"
 #include "commands/work.h"
 #include "device/fake/fake_hd.h"
+#include "support/places.h"
 #include "window/mill/make_ready.h"
 #include "window/mill/side_panel.h"
 #include "window/stick.h"
@@ -33,7 +34,7 @@ using math::Vec3;
 class DeviceWindow : public Window {
  protected:
   void SetUp() override {
-    const std::string library = std::string(BURR_BUILD_DIR) + "/fakes/libHD.so";
+    const std::string library = test::build_dir() + "/fakes/libHD.so";
     ::setenv("BURR_OPENHAPTICS", library.c_str(), 1);
     ::setenv("XDG_CONFIG_HOME", fs::absolute(folder_).c_str(), 1);
     void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_GLOBAL);

@@ -16,6 +16,7 @@
 #include "burr/record/player.h"
 #include "burr/render/bone_scene.h"
 #include "support/folder.h"
+#include "support/places.h"
 #include "window/replay/difference.h"
 
 namespace burr::app {
@@ -51,7 +52,7 @@ class SlabFacts : public testing::Test {
       file.put(static_cast<char>(k < 15 ? 2 : k < 16 ? 1 : 0));
     }
     file.close();
-    const std::string command = std::string(BURR_BUILD_DIR "/burr --quiet mill ") + slab.string() +
+    const std::string command = test::build_dir() + "/burr --quiet mill " + slab.string() +
                                 " --tissues " + table.string() +
                                 " --motion plunge --at 12,12,16 --into 0,0,-1 --burr-mm 5 "
                                 "--seconds 8 --record " +

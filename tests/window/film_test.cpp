@@ -15,6 +15,7 @@
 #include <string>
 
 #include "support/folder.h"
+#include "support/places.h"
 #include "window/replay/film_job.h"
 
 namespace burr::app {
@@ -38,7 +39,7 @@ Ended run(const std::string& command) {
   return out;
 }
 
-const std::string kBurr = BURR_BUILD_DIR "/burr --quiet ";
+const std::string kBurr = test::build_dir() + "/burr --quiet ";
 
 // "h264,160,100,1.000000,5": codec, width, height, duration, pictures counted by decoding them
 std::string probed(const fs::path& film) {
@@ -153,7 +154,7 @@ TEST_F(FilmFiles, SayInOneSentenceWhyThereIsNone) {
 TEST_F(FilmFiles, LeaveNothingWhenStopped) {
   // Ctrl-C as soon as it films: the pixels of a large picture take a while. --foreground: timeout
   // then sends one signal; a second one ends burr at once, as a second Ctrl-C does
-  const Ended stopped = run("timeout --foreground --signal=INT 2 " + std::string(BURR_BUILD_DIR) +
+  const Ended stopped = run("timeout --foreground --signal=INT 2 " + test::build_dir() +
                             "/burr --percent replay " + recording() +
                             " --fps 200 --picture-size 1920,1080 --film " + film());
   EXPECT_NE(stopped.said.find("filming 0 %"), std::string::npos) << stopped.said;

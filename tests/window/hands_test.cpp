@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "support/places.h"
 #include "window/hands/gamepad.h"
 #include "window/hands/pedals.h"
 #include "window/hands/spacemouse.h"
@@ -238,8 +239,8 @@ TEST(Hands, RestIsRestAndNumbersThatCannotBeStayWithinBounds) {
 class CapWindow : public Window {
  protected:
   void SetUp() override {
-    ::setenv("BURR_SPNAV", BURR_BUILD_DIR "/libfake_spnav.so", 1);
-    void* fake = dlopen(BURR_BUILD_DIR "/libfake_spnav.so", RTLD_NOW | RTLD_LOCAL);
+    ::setenv("BURR_SPNAV", (test::build_dir() + "/libfake_spnav.so").c_str(), 1);
+    void* fake = dlopen((test::build_dir() + "/libfake_spnav.so").c_str(), RTLD_NOW | RTLD_LOCAL);
     ASSERT_NE(fake, nullptr) << dlerror();
     move_ = reinterpret_cast<void (*)(const int*)>(dlsym(fake, "fake_move"));
     press_ = reinterpret_cast<void (*)(int)>(dlsym(fake, "fake_press"));

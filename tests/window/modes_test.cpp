@@ -7,6 +7,7 @@
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
 #include "burr/sim/session_words.h"
+#include "support/places.h"
 #include "user.h"
 
 namespace burr::app {
@@ -149,7 +150,7 @@ TEST_F(Modes, LearningHasStepsAndALitTargetAndTheRecordingCountsBoth) {
 // Nobody sees a score while he works: the page for milling cannot compute one. Marks come from the
 // page at the end of a case, which only the order of pages knows.
 TEST(Scores, TheWindowKnowsNothingOfThemButWhetherAStepIsDone) {
-  const fs::path window = fs::path(BURR_SOURCE_DIR) / "apps/burr/window";
+  const fs::path window = fs::path(test::source_dir()) / "apps/burr/window";
   int files = 0, reviews = 0;
   for (const auto& entry : fs::recursive_directory_iterator(window)) {
     if (!entry.is_regular_file()) continue;

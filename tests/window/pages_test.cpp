@@ -1,4 +1,5 @@
 // A user at the window, page by page: keys, mouse and drops as SDL events, without a screen.
+#include "support/places.h"
 #include "window/shell/pages.h"
 
 #include <gtest/gtest.h>
@@ -408,7 +409,7 @@ TEST_F(Window, TellsWhatIsWrongWithAFileOfTheCorpusAndGoesOn) {
 }
 
 TEST_F(Window, CancelsLoadingAndIsBackAtTheStartWithoutComplaint) {
-  const fs::path work = fs::path(BURR_SOURCE_DIR) / "cases" / "temporal_bone.toml";
+  const fs::path work = fs::path(test::source_dir()) / "cases" / "temporal_bone.toml";
   pages_by({{"the start page", on(Page::start), [&] { drop(work); }},
             {"loading", on(Page::loading), [] { press(SDLK_ESCAPE); }},
             {"the start page again", on(Page::start), nullptr},

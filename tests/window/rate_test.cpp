@@ -17,6 +17,7 @@
 #include "burr/school/store.h"
 #include "school/products.h"
 #include "support/made_once.h"
+#include "support/places.h"
 #include "user.h"
 
 namespace burr::app {
@@ -56,7 +57,7 @@ class RateWindow : public Window {
   }
   static bool command(const std::string& words) {
     const std::string line =
-        "'" + std::string(BURR_BUILD_DIR) + "/burr' --quiet " + words + " 2>&1";
+        "'" + test::build_dir() + "/burr' --quiet " + words + " 2>&1";
     std::string said;
     FILE* out = ::popen(line.c_str(), "r");
     if (out == nullptr) return false;

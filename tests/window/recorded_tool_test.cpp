@@ -22,6 +22,7 @@
 #include "sim/commanded.h"
 #include "sim/lifted.h"
 #include "support/folder.h"
+#include "support/places.h"
 #include "window/replay/playback.h"
 #include "window/replay/replay_page.h"
 #include "window/replay/replay_view.h"
@@ -48,7 +49,7 @@ class RecordedTool : public testing::Test {
   }
   // `burr replay NAME WORDS`
   void replay(const std::string& name, const std::string& words) const {
-    const std::string command = "'" + std::string(BURR_BUILD_DIR) + "/burr' replay '" + file(name) +
+    const std::string command = "'" + test::build_dir() + "/burr' replay '" + file(name) +
                                 "' --picture-size 320,240 " + words + " >'" +
                                 (folder_ / "said.txt").string() + "' 2>&1";
     const int status = std::system(command.c_str());

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "burr/record/player.h"
+#include "support/places.h"
 #include "user.h"
 #include "window/mill/measuring.h"
 #include "window/replay/replay_bar.h"
@@ -29,7 +30,7 @@ namespace {
 
 int run_burr(const std::string& words) {
   const int left =
-      std::system((std::string(BURR_BUILD_DIR "/burr --quiet ") + words + " > /dev/null").c_str());
+      std::system((test::build_dir() + "/burr --quiet " + words + " > /dev/null").c_str());
   return WIFEXITED(left) ? WEXITSTATUS(left) : -1;
 }
 

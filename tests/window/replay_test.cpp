@@ -1,4 +1,5 @@
 // A user who watches a recording: what is shown is what was, at any moment asked for.
+#include "support/places.h"
 #include "window/replay/replay_page.h"
 
 #include <gtest/gtest.h>
@@ -256,7 +257,7 @@ TEST_F(Replay, ShowsWhatMillingLeftUnlessTheSettingIsOff) {
 
 int run_burr(const std::string& words) {
   const int left =
-      std::system((std::string(BURR_BUILD_DIR "/burr --quiet ") + words + " > /dev/null").c_str());
+      std::system((test::build_dir() + "/burr --quiet " + words + " > /dev/null").c_str());
   return WIFEXITED(left) ? WEXITSTATUS(left) : -1;
 }
 

@@ -1,5 +1,6 @@
 // The end of a case at the window: the learner's own marks, then those of the machine; what an exam does
 // not show; a session that was killed.
+#include "support/places.h"
 #include "window/review/review.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ class ReviewWindow : public Window {
     if (const char* state = std::getenv(kState)) folder_ = state;
     Window::SetUp();
     // the practice block in coarse voxels, which open and are marked faster
-    std::ifstream in(fs::path(BURR_SOURCE_DIR) / "cases" / "block.toml");
+    std::ifstream in(fs::path(test::source_dir()) / "cases" / "block.toml");
     std::string text(std::istreambuf_iterator<char>(in), {});
     const std::string fine = "voxel_mm = 0.25";
     const std::size_t at = text.find(fine);
@@ -329,7 +330,7 @@ TEST_F(ReviewWindow, AKilledSessionIsOfferedAgainAndMarkedAsUnfinished) {
   EXPECT_TRUE(kept()[0].marks);
 
   const std::string command =
-      std::string(BURR_BUILD_DIR) + "/burr --quiet score '" + kept()[0].file.string() + "' 2>&1";
+      test::build_dir() + "/burr --quiet score '" + kept()[0].file.string() + "' 2>&1";
   std::string said;
   FILE* out = ::popen(command.c_str(), "r");
   ASSERT_NE(out, nullptr);

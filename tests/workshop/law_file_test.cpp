@@ -8,11 +8,12 @@
 
 #include "burr/workshop/sha256.h"
 #include "support/folder.h"
+#include "support/places.h"
 
 namespace burr::workshop {
 namespace {
 
-const std::string kLaws = BURR_BUILD_DIR "/laws/";
+const std::string kLaws = test::build_dir() + "/laws/";
 
 burr_law_in_v1 pressed(double depth) {
   burr_law_in_v1 in = {};

@@ -13,6 +13,7 @@
 #include "burr/device/forcedimension/omega.h"
 #include "device/fake/fake_dhd.h"
 #include "device/players/player.h"
+#include "support/places.h"
 
 namespace burr::test {
 
@@ -77,7 +78,7 @@ class OmegaPlayer final : public Player {
   }
 
  private:
-  inline static const std::string kLibrary = BURR_BUILD_DIR "/fakes/libdrd.so";
+  inline static const std::string kLibrary = test::build_dir() + "/fakes/libdrd.so";
   static FakeDhd& false_library() {
     void* loaded = dlopen(kLibrary.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (loaded == nullptr) std::abort();

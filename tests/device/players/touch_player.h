@@ -12,11 +12,12 @@
 #include "burr/device/openhaptics/touch.h"
 #include "device/fake/fake_hd.h"
 #include "device/players/player.h"
+#include "support/places.h"
 
 namespace burr::test {
 
 class TouchPlayer final : public Player {
-  inline static const std::string kLibrary = BURR_BUILD_DIR "/fakes/libHD.so";
+  inline static const std::string kLibrary = test::build_dir() + "/fakes/libHD.so";
 
   template <class F>
   auto with(F look) {

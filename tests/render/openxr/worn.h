@@ -10,13 +10,14 @@
 #include <string>
 
 #include "render/openxr/fake_openxr.h"
+#include "support/places.h"
 
 namespace burr::test {
 
 class Worn {
  public:
   Worn() {
-    const std::string file = std::string(BURR_BUILD_DIR) + "/libfake_openxr.so";
+    const std::string file = test::build_dir() + "/libfake_openxr.so";
     void* const opened = dlopen(file.c_str(), RTLD_NOW | RTLD_NODELETE);
     if (opened == nullptr) {
       ADD_FAILURE() << dlerror();
