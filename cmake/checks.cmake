@@ -1,5 +1,5 @@
 # Every check of ./test besides the unit tests, as tests of ctest. Label `long`: left out by ./test
-# --quick. A test that builds uses all processors; one other test may run beside it, which takes what is left while the
+# --quick; label `full-N`: left out by ./test (cmake/tiers.cmake). A test that builds uses all processors; one other test may run beside it, which takes what is left while the
 # build waits for its last file.
 find_package(Python3 COMPONENTS Interpreter)
 include(ProcessorCount)
@@ -14,6 +14,7 @@ if(Python3_FOUND)
   add_test(NAME house.long_functions_are_found COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/long_functions_test.py)
   add_test(NAME house.includes COMMAND ${Python3_EXECUTABLE} ${checks}/includes.py)
   add_test(NAME house.includes_are_found COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/includes_test.py)
+  add_test(NAME house.gate_share COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/gate_share_test.py)
   add_test(NAME house.together COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/house/together_test.py)
   add_test(NAME house.same_bits COMMAND ${Python3_EXECUTABLE} ${checks}/same_bits.py $<TARGET_FILE:same_bits>)
   set_tests_properties(house.same_bits PROPERTIES TIMEOUT 600)
@@ -171,7 +172,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads
                                    # the same files
   # bounds of forces, which the release build tests; and an arm on DDS, whose opening takes 36 ms
-  set(asan_filter_device "-*OfManyRandomForces*:LeaderTest.AThousandTimes*")
+  set(asan_filter_device "-*OfManyRandomForces*:LeaderTest.OpenedAndClosedManyTimes*")
   set(asan_filter_school "-*Server*")  # the release build talks to the server; libpq keeps memory to the end
   set(asan_filter_record "-Player.OpensAnyMomentOfTenMinutesAtOnce")  # long, and shorter tests take the same way
   set(asan_targets)
@@ -202,7 +203,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   burr_other_test(tsan sound "*")
   burr_other_test(tsan record "*Recorder*")
   burr_other_test(tsan sim "WholeSession.*")
-  burr_other_test(tsan device "*-*Million*:*Thousand*:*Hundred*Times*")
+  burr_other_test(tsan device "*-*Million*:*Thousand*:*OpenedAndClosedManyTimes*:*Hundred*Times*")
   # The program's threads. A press that lasts long loses ticks in this build, and then the hand does
   # not get its force back; WholeProgram tests undo as well.
   burr_other_test(tsan window "WholeProgram.*:Window.*-Window.UndoByKey*")
@@ -255,6 +256,8 @@ foreach(build asan.build tsan.build clang.build portable.aarch64 portable.web)
   endif()
 endforeach()
 
+include(cmake/tiers.cmake)
+
 # every claim about touch, within a minute; real bones where they are available
 set(verify_data "")
 if(EXISTS ${PROJECT_SOURCE_DIR}/../shared/data)
@@ -275,10 +278,6 @@ while(costs)
   list(POP_FRONT costs test seconds)
   string(APPEND orders "set_tests_properties(${test} PROPERTIES COST ${seconds})\n")
 endwhile()
-foreach(test OfManyRandomForcesNonePassesTheLimit AThousandTimesOpenedAndClosedNothingIsLeft)
-  string(APPEND orders "set_tests_properties(device.InverseTest.${test} device.PolhemTest.${test} PROPERTIES COST 40)\n")
-endforeach()
-string(APPEND orders "set_tests_properties(device.LeaderTest.AThousandTimesOpenedAndClosedNothingIsLeft PROPERTIES COST 130)\n")
 # the loss by a kill is judged in milliseconds of a clock, so no other test may disturb it
 string(APPEND orders "set_tests_properties(sim.Killed.AtAnyMomentItOpensLacksATenthOfASecondAtMostAndReplaysToTheBit "
   "PROPERTIES RUN_SERIAL TRUE)\n")

@@ -28,14 +28,15 @@ set(with_threads "tests/(rt|device)/|(window/window|window/pages|sound/voice|sou
 # with the same load. Replay plays recordings: three copies of each of its tests at once passed on two cores with a load of
 # 12 to 20. Not so ReplayByMouse, where two tests waited for 120 s in vain, and FilmFiles, where a film had not begun after 2 s.
 # Tests of devices in real time mostly wait, and use a fifth of a core: they run beside tests of other rooms, but not
-# beside each other. On two cores with a load of 9 all of them passed, slowed down by a sanitizer. They start early (COST),
-# so that at the end no core waits for them.
+# beside each other. On two cores with a load of 9 all of them passed, slowed down by a sanitizer. They run one after the
+# other beside the other builds, and for that alone do not wait for them (`at_once`, COST).
 set(alone_but_window Cap Grip Tools/Rack RackOfASession Directions ExportPieces ExportRequest Film Greys HandPlane Hands ImportDoubts ImportWindow LabelTable Measuring Memory MirrorWords Planes Steps Technique
   Bones/Hover HoverHand TypedPath PrebuiltPhantom Preview PrintedKeys Questions RateWindow Region Replay Scores StatusLine Words Work SavedViewsFile SettingsFile)
 set(manner_window RESOURCE_LOCK window COST 40)
-set(manner_device RESOURCE_LOCK clock COST 45)
+set(manner_device RESOURCE_LOCK clock COST 500)
+set(at_once device)
 set(alone_but_device OmegaTest MappedHand HaplyMessage CrtkNames CrtkReading PolhemLine PolhemPorts ListingTest TouchTest
-  InverseTest.OfMany* PolhemTest.OfMany* InverseTest.AThousand* PolhemTest.AThousand* LeaderTest.AThousand*)
+  InverseTest.OfMany* PolhemTest.OfMany* InverseTest.OpenedAndClosedMany* PolhemTest.OpenedAndClosedMany* LeaderTest.OpenedAndClosedMany*)
 foreach(room ${rooms})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*_test.cpp)
   if(BURR_SANITIZE STREQUAL "thread")
@@ -85,14 +86,18 @@ foreach(room ${rooms})
       set(first_that_${manner} ${room})
       burr_common_headers(test_${room} <gtest/gtest.h>)
     endif()
-    set(discovering TEST_PREFIX ${room}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 900 DEPENDS other_builds)
+    set(discovering TEST_PREFIX ${room}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 900)
+    set(after_builds DEPENDS other_builds)
     if(alone_but_${room})  # twice: what runs beside others, and what runs alone
       list(TRANSFORM alone_but_${room} APPEND ".*" REGEX "^[^.]+$")  # a whole group
       list(JOIN alone_but_${room} ":" free)
-      gtest_discover_tests(test_${room} TEST_FILTER "${free}" ${discovering})
-      gtest_discover_tests(test_${room} TEST_FILTER "-${free}" ${discovering} ${manner_${room}})
+      gtest_discover_tests(test_${room} TEST_FILTER "${free}" ${discovering} ${after_builds})
+      if(room IN_LIST at_once)
+        set(after_builds "")
+      endif()
+      gtest_discover_tests(test_${room} TEST_FILTER "-${free}" ${discovering} ${manner_${room}} ${after_builds})
     else()
-      gtest_discover_tests(test_${room} ${discovering})
+      gtest_discover_tests(test_${room} ${discovering} ${after_builds})
     endif()
   endif()
 endforeach()

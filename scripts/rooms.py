@@ -2,6 +2,7 @@
 """Prints which rooms of src/burr include which, and fails where this differs from docs/architecture.md.
 
     scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr and apps; default: this checkout
+    scripts/rooms.py --above ROOM         prints ROOM and the rooms that include it, as far as they have tests (./test --room)
 
 Fails on a room that is not listed, an arrow that is not listed, rooms that include each other in a circle, files that
 include each other in a circle (in src/burr and in apps; a header and the source beside it count as one), and a
@@ -223,7 +224,21 @@ def circles(doors):
     return sorted(room for room in reach if room in reach[room])
 
 
+def above(room):
+    """Prints the room and those that include it, of those that have tests; 2: there is no such room."""
+    root = pathlib.Path(__file__).resolve().parent.parent
+    tested = {file.parent.name for file in root.glob("tests/*/*_test.cpp")}
+    if room not in tested:
+        print(f"rooms.py: no room {room!r} has tests; these have: {' '.join(sorted(tested))}", file=sys.stderr)
+        return 2
+    doors, _ = look(root / "src" / "burr")
+    print("\n".join([room, *sorted({a for a, b in doors if b == room} & tested - {room})]))
+    return 0
+
+
 def main():
+    if sys.argv[1:2] == ["--above"] and len(sys.argv) == 3:
+        return above(sys.argv[2])
     arguments = [a for a in sys.argv[1:] if not a.startswith("-")]
     unknown = [a for a in sys.argv[1:] if a.startswith("-")]
     if unknown or len(arguments) > 1:

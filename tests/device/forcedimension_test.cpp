@@ -1122,20 +1122,23 @@ TEST_F(OmegaTest, AMillionWildTicksNeverPassTheLimit) {
   EXPECT_LE(largest, kUsers + 1e-9) << "seed " << seed;
 }
 
-TEST_F(OmegaTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
+TEST_F(OmegaTest, OpenedAndClosedManyTimesNothingIsLeft) {
+  const int rounds = test::rounds();
   set([](test::FakeArm& arm) { arm.rate = 4000; });
   {
     std::unique_ptr<WireDevice> kept;
     ASSERT_TRUE(made(kept, by_itself()).open().ok());
   }
   const int files = test::open_files();
-  for (int n = 0; n < 1000; ++n) {
+  for (int n = 0; n < rounds; ++n) {
     std::unique_ptr<WireDevice> kept;
     ASSERT_TRUE(made(kept, by_itself()).open().ok()) << n;
   }
   EXPECT_EQ(test::open_files(), files);
-  EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.opened; }), 1001U);
-  EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.closed; }), 1001U);
+  EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.opened; }),
+            static_cast<std::uint64_t>(rounds) + 1);
+  EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.closed; }),
+            static_cast<std::uint64_t>(rounds) + 1);
 }
 
 TEST_F(OmegaTest, TheExchangeTakesNoMemoryAndNoLock) {

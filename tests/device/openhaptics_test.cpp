@@ -564,20 +564,21 @@ TEST_F(TouchTest, AMillionWildTicksNeverPassTheLimit) {
   EXPECT_LE(fake().hd->touch[0].largest_force, 3.3 + 1e-9) << "seed " << seed;
 }
 
-TEST_F(TouchTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
+TEST_F(TouchTest, OpenedAndClosedManyTimesNothingIsLeft) {
+  const int rounds = test::rounds();
   {
     Touch first(by_itself());
     ASSERT_TRUE(first.open().ok());
   }
   const int files = test::open_files();
-  for (int n = 0; n < 1000; ++n) {
+  for (int n = 0; n < rounds; ++n) {
     Touch touch(by_itself());
     ASSERT_TRUE(touch.open().ok()) << n;
   }
   EXPECT_EQ(test::open_files(), files);
   const std::lock_guard lock(fake().hd->mutex);
-  EXPECT_EQ(fake().hd->touch[0].opened, 1001U);
-  EXPECT_EQ(fake().hd->touch[0].closed, 1001U);
+  EXPECT_EQ(fake().hd->touch[0].opened, static_cast<std::uint64_t>(rounds) + 1);
+  EXPECT_EQ(fake().hd->touch[0].closed, static_cast<std::uint64_t>(rounds) + 1);
 }
 
 TEST_F(TouchTest, TheExchangeTakesNoMemory) {

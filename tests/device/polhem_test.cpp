@@ -279,9 +279,10 @@ TEST_F(PolhemTest, OfManyRandomForcesNonePassesTheLimit) {
   EXPECT_LE(largest, 5 + 1e-3) << "rounded to millinewtons; seed " << seed;
 }
 
-TEST_F(PolhemTest, AThousandTimesOpenedAndClosedNothingIsLeft) {
+TEST_F(PolhemTest, OpenedAndClosedManyTimesNothingIsLeft) {
+  const int rounds = test::rounds();
   const int before = test::open_files();
-  for (int n = 0; n < 1000; ++n) {
+  for (int n = 0; n < rounds; ++n) {
     Polhem wire(here());
     const auto found = wire.connect();
     ASSERT_TRUE(found.ok()) << n << ": " << found.error().text;

@@ -84,10 +84,19 @@ class StandIn {
   std::thread thread_;
 };
 
+// `./test --full` asks for tests at their whole length.
+[[nodiscard]] inline bool full() {
+  const char* wanted = std::getenv("BURR_FULL");
+  return wanted != nullptr && std::string(wanted) == "1";
+}
+// How often a device is opened and closed to see what is left: a leak shows in the first hundred.
+[[nodiscard]] inline int rounds() { return full() ? 1000 : 100; }
+
 // Number of random forces over a real wire; BURR_FORCES=1000000 sends a million. Bounded.AMillionForces... tests the
 // limit itself with a million, without a wire.
 [[nodiscard]] inline int forces_on_a_wire() {
   if (const char* wanted = std::getenv("BURR_FORCES")) return std::atoi(wanted);
+  if (!full()) return 20'000;
 #if defined(BURR_SANITIZED)
   return 50'000;  // each is slow
 #else
