@@ -629,7 +629,9 @@ void link_small(const fs::path& corpus, const string& target, const std::vector<
 
 int main(int argc, char** argv) {
   if (argc < 3 || argc > 4) {
-    std::fprintf(stderr, "usage: fuzz_seeds DIR PROJECT [CORPUS]      (PROJECT: the folder of burr's sources)\n");
+    std::fprintf(
+        stderr,
+        "usage: fuzz_seeds DIR PROJECT [CORPUS]      (PROJECT: the folder of burr's sources)\n");
     return 2;
   }
   seeds = argv[1];

@@ -22,7 +22,7 @@ namespace {
 class FitProgram : public burr::test::FolderTest {
  protected:
   void SetUp() override {
-    program_ = test::build_dir() + "/burr";
+    program_ = burr::test::build_dir() + "/burr";
     ASSERT_TRUE(std::filesystem::exists(program_)) << "build the target burr first";
   }
   // The program's output, with "exit N" as the last line.

@@ -148,9 +148,9 @@ class Golden : public testing::TestWithParam<Shot> {
     return one.path();
   }
   static int run(const std::string& words) {
-    const int left = std::system((test::build_dir() + "/burr --quiet " + words +
-                                  " --picture-size 240,150 > /dev/null")
-                                     .c_str());
+    const int left = std::system(
+        (test::build_dir() + "/burr --quiet " + words + " --picture-size 240,150 > /dev/null")
+            .c_str());
     return WIFEXITED(left) ? WEXITSTATUS(left) : -1;
   }
   static fs::path recording(const std::string& of) { return folder() / (of + ".mcap"); }

@@ -279,7 +279,8 @@ TEST(FenceHere, SaysHowHighItIs) {
 }
 
 TEST_F(Fence, StartedByHandTheReaderSaysSo) {
-  EXPECT_SAYS(output_of("'" + test::build_dir() + "/burr-read' </dev/null"), "do not start it by hand");
+  EXPECT_SAYS(output_of("'" + test::build_dir() + "/burr-read' </dev/null"),
+              "do not start it by hand");
 }
 
 }  // namespace

@@ -318,7 +318,7 @@ TEST(Mcap, TheMcapProjectsOwnReaderAgrees) {
   const Folder folder;
   const auto bone = any_bone(random);
   const Truth truth = record_any(folder / "s.mcap", 12'500, 1000, *bone, random, true);
-  const std::string command = "node '" + test::source_dir() +
+  const std::string command = "node '" + burr::test::source_dir() +
                               "/tests/record/other_reader.cjs' '" + (folder / "s.mcap") + "' 2>&1";
   FILE* pipe = ::popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);

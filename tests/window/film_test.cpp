@@ -154,9 +154,9 @@ TEST_F(FilmFiles, SayInOneSentenceWhyThereIsNone) {
 TEST_F(FilmFiles, LeaveNothingWhenStopped) {
   // Ctrl-C as soon as it films: the pixels of a large picture take a while. --foreground: timeout
   // then sends one signal; a second one ends burr at once, as a second Ctrl-C does
-  const Ended stopped = run("timeout --foreground --signal=INT 2 " + test::build_dir() +
-                            "/burr --percent replay " + recording() +
-                            " --fps 200 --picture-size 1920,1080 --film " + film());
+  const Ended stopped =
+      run("timeout --foreground --signal=INT 2 " + test::build_dir() + "/burr --percent replay " +
+          recording() + " --fps 200 --picture-size 1920,1080 --film " + film());
   EXPECT_NE(stopped.said.find("filming 0 %"), std::string::npos) << stopped.said;
   EXPECT_NE(stopped.said.find("stopped; no film was written"), std::string::npos) << stopped.said;
   EXPECT_TRUE(nothing_left());

@@ -1,6 +1,6 @@
 // A user at the window, page by page: keys, mouse and drops as SDL events, without a screen.
-#include "support/places.h"
 #include "window/shell/pages.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 

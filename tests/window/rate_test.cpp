@@ -56,8 +56,7 @@ class RateWindow : public Window {
     ASSERT_EQ(sessions().size(), 2U) << "the test shows nothing";
   }
   static bool command(const std::string& words) {
-    const std::string line =
-        "'" + test::build_dir() + "/burr' --quiet " + words + " 2>&1";
+    const std::string line = "'" + test::build_dir() + "/burr' --quiet " + words + " 2>&1";
     std::string said;
     FILE* out = ::popen(line.c_str(), "r");
     if (out == nullptr) return false;

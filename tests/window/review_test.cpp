@@ -1,7 +1,7 @@
 // The end of a case at the window: the learner's own marks, then those of the machine; what an exam does
 // not show; a session that was killed.
-#include "support/places.h"
 #include "window/review/review.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 #include <spawn.h>
