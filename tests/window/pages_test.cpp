@@ -1,6 +1,5 @@
 // A user at the window, page by page: keys, mouse and drops as SDL events, without a screen.
 #include "window/shell/pages.h"
-#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include "burr/render/pick.h"
 #include "burr/rt/changed_bits.h"
 #include "burr/workshop/recording.h"
+#include "support/places.h"
 #include "window/mill/see_through.h"
 #include "window/mill/window.h"
 #include "window/start/sessions.h"

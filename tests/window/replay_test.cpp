@@ -1,5 +1,4 @@
 // A user who watches a recording: what is shown is what was, at any moment asked for.
-#include "support/places.h"
 #include "window/replay/replay_page.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +18,7 @@
 #include "burr/workshop/work_view.h"
 #include "commands/recording.h"
 #include "commands/work.h"
+#include "support/places.h"
 #include "window/replay/difference.h"
 #include "window/shell/pages.h"
 #include "window/user.h"

@@ -1,7 +1,6 @@
 // The end of a case at the window: the learner's own marks, then those of the machine; what an exam does
 // not show; a session that was killed.
 #include "window/review/review.h"
-#include "support/places.h"
 
 #include <gtest/gtest.h>
 #include <spawn.h>
@@ -25,6 +24,7 @@
 #include "burr/school/store.h"
 #include "report/marked.h"
 #include "report/questions.h"
+#include "support/places.h"
 #include "user.h"
 #include "window/review/enter_session.h"
 #include "window/review/review_page.h"
