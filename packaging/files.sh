@@ -15,8 +15,9 @@ gzip -9n "$out"/man?/*
 "$burr" doctor --print-rule >"$out/70-burr.rules"
 version=$("$burr" --version | sed 's/^burr \([^ ]*\).*/\1/')
 sed "s/@VERSION@/$version/; s/@DATE@/$(date -u -d "@$SOURCE_DATE_EPOCH" +%Y-%m-%d)/" "$here/desktop/org.burr.Burr.metainfo.xml" >"$out/org.burr.Burr.metainfo.xml"
+release=$(source /etc/os-release && echo "${VERSION_CODENAME:-unstable}")
 gzip -9n >"$out/changelog.Debian.gz" <<X
-burr ($version-1) bookworm; urgency=medium
+burr ($version-1) $release; urgency=medium
 
   * What changed: CHANGELOG.md of burr.
 

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "window/shell/imgui_keys.h"
 #include "window/shell/typed_path.h"
 #include "window/shell/words.h"
 
@@ -152,21 +153,20 @@ void FileDialog::take(std::size_t entry) {
 
 void FileDialog::keys(bool typing) {
   if (typing) return;
-  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
   const auto move = [&](int by) {
     const auto last = static_cast<int>(entries_.size()) - 1;
     chosen_ =
         static_cast<std::size_t>(std::clamp(static_cast<int>(chosen_) + by, 0, std::max(0, last)));
     show_chosen_ = true;
   };
-  if (pressed(ImGuiKey_DownArrow)) move(1);
-  if (pressed(ImGuiKey_UpArrow)) move(-1);
-  if (pressed(ImGuiKey_PageDown)) move(10);
-  if (pressed(ImGuiKey_PageUp)) move(-10);
-  if (pressed(ImGuiKey_Home)) move(-static_cast<int>(entries_.size()));
-  if (pressed(ImGuiKey_End)) move(static_cast<int>(entries_.size()));
-  if (pressed(ImGuiKey_Backspace)) return go_to(folder_.parent_path());
-  if (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter)) return take(chosen_);
+  if (key_pressed(ImGuiKey_DownArrow)) move(1);
+  if (key_pressed(ImGuiKey_UpArrow)) move(-1);
+  if (key_pressed(ImGuiKey_PageDown)) move(10);
+  if (key_pressed(ImGuiKey_PageUp)) move(-10);
+  if (key_pressed(ImGuiKey_Home)) move(-static_cast<int>(entries_.size()));
+  if (key_pressed(ImGuiKey_End)) move(static_cast<int>(entries_.size()));
+  if (key_pressed(ImGuiKey_Backspace)) return go_to(folder_.parent_path());
+  if (key_pressed(ImGuiKey_Enter) || key_pressed(kKeypadEnter)) return take(chosen_);
   const ImGuiIO& io = ImGui::GetIO();
   constexpr double kPause = 1;  // after it a letter begins a new name [s]
   for (const ImWchar letter : io.InputQueueCharacters) {

@@ -42,30 +42,6 @@ std::unique_ptr<Ui> Ui::make() {
   io.IniFilename = nullptr;  // positions of panels are fixed, not saved
   io.LogFilename = nullptr;
   io.BackendPlatformName = "burr";
-  const std::pair<ImGuiKey, SDL_Scancode> keys[] = {
-      {ImGuiKey_Tab, SDL_SCANCODE_TAB},
-      {ImGuiKey_LeftArrow, SDL_SCANCODE_LEFT},
-      {ImGuiKey_RightArrow, SDL_SCANCODE_RIGHT},
-      {ImGuiKey_UpArrow, SDL_SCANCODE_UP},
-      {ImGuiKey_DownArrow, SDL_SCANCODE_DOWN},
-      {ImGuiKey_PageUp, SDL_SCANCODE_PAGEUP},
-      {ImGuiKey_PageDown, SDL_SCANCODE_PAGEDOWN},
-      {ImGuiKey_Home, SDL_SCANCODE_HOME},
-      {ImGuiKey_End, SDL_SCANCODE_END},
-      {ImGuiKey_Delete, SDL_SCANCODE_DELETE},
-      {ImGuiKey_Backspace, SDL_SCANCODE_BACKSPACE},
-      {ImGuiKey_Space, SDL_SCANCODE_SPACE},
-      {ImGuiKey_Enter, SDL_SCANCODE_RETURN},
-      {ImGuiKey_Escape, SDL_SCANCODE_ESCAPE},
-      {ImGuiKey_KeyPadEnter, SDL_SCANCODE_KP_ENTER},
-      {ImGuiKey_A, SDL_SCANCODE_A},
-      {ImGuiKey_C, SDL_SCANCODE_C},
-      {ImGuiKey_V, SDL_SCANCODE_V},
-      {ImGuiKey_X, SDL_SCANCODE_X},
-      {ImGuiKey_Y, SDL_SCANCODE_Y},
-      {ImGuiKey_Z, SDL_SCANCODE_Z},
-  };
-  for (const auto& [key, scancode] : keys) io.KeyMap[key] = scancode;
   ImGui_ImplOpenGL3_Init(epoxy_is_desktop_gl() ? "#version 330 core" : "#version 300 es");
   return ui;
 }
@@ -111,28 +87,28 @@ void Ui::event(const SDL_Event& event) {
       // Ctrl + Z is the key on which Z is printed, wherever it lies
       if (const SDL_Keycode key = event.key.keysym.sym; key >= SDLK_a && key <= SDLK_z)
         scancode = static_cast<SDL_Scancode>(SDL_SCANCODE_A + (key - SDLK_a));
-      if (scancode < std::size(io.KeysDown)) {
+      if (scancode < SDL_NUM_SCANCODES) {
         if (event.type == SDL_KEYDOWN) {
-          io.KeysDown[scancode] = true;
+          keys_.keys[scancode] = true;
           fresh_.push_back(scancode);
         } else if (std::find(fresh_.begin(), fresh_.end(), scancode) != fresh_.end()) {
           let_go_.push_back(scancode);
         } else {
-          io.KeysDown[scancode] = false;
+          keys_.keys[scancode] = false;
         }
       }
       // of keys that went down since the last frame, those held with the last of them count: all
       // of Ctrl + A may happen within one frame
       if (event.type == SDL_KEYUP && !fresh_.empty()) break;
       const unsigned held = event.key.keysym.mod;
-      io.KeyShift = (held & KMOD_SHIFT) != 0;
-      io.KeyCtrl = (held & KMOD_CTRL) != 0;
-      io.KeyAlt = (held & KMOD_ALT) != 0;
+      keys_.shift = (held & KMOD_SHIFT) != 0;
+      keys_.ctrl = (held & KMOD_CTRL) != 0;
+      keys_.alt = (held & KMOD_ALT) != 0;
       break;
     }
     case SDL_WINDOWEVENT:
       if (event.window.event != SDL_WINDOWEVENT_FOCUS_LOST) break;
-      std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+      keys_.keys.reset();
       std::fill(std::begin(down_), std::end(down_), false);
       std::erase_if(mouse_, [](const MouseStep& step) { return step.button >= 0; });
       break;
@@ -168,16 +144,17 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
   io.MousePos =
       seen_x_ < 0 ? ImVec2(-1e30F, -1e30F) : ImVec2(seen_x_ * from_window_, seen_y_ * from_window_);
   for (int b = 0; b < 3; ++b) io.MouseDown[b] = down_[b];
-  for (const SDL_Scancode scancode : up_) io.KeysDown[scancode] = false;
+  for (const SDL_Scancode scancode : up_) keys_.keys[scancode] = false;
   up_ = std::exchange(let_go_, {});
   // a modifier that was pressed and released within one frame counts in that frame, and ends in the next
   if (fresh_.empty() && up_.empty()) {
     const SDL_Keymod held = SDL_GetModState();
-    io.KeyShift = io.KeyShift && (held & KMOD_SHIFT) != 0;
-    io.KeyCtrl = io.KeyCtrl && (held & KMOD_CTRL) != 0;
-    io.KeyAlt = io.KeyAlt && (held & KMOD_ALT) != 0;
+    keys_.shift = keys_.shift && (held & KMOD_SHIFT) != 0;
+    keys_.ctrl = keys_.ctrl && (held & KMOD_CTRL) != 0;
+    keys_.alt = keys_.alt && (held & KMOD_ALT) != 0;
   }
   fresh_.clear();
+  tell_imgui(keys_);
   io.ConfigFlags = keys ? ImGuiConfigFlags_NavEnableKeyboard : ImGuiConfigFlags_None;
   const Uint64 now = SDL_GetPerformanceCounter();
   const double passed = last_ == 0 ? 1.0 / 60

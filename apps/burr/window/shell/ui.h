@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+#include "window/shell/imgui_keys.h"
+
 namespace burr::app {
 
 namespace ink {
@@ -105,6 +107,7 @@ class Ui {
   float seen_x_ = -1, seen_y_ = -1;  // as the panels see it now
   bool down_[3] = {};
   std::vector<Box> boxes_;
+  KeysDown keys_;
   // a key that is released in the frame in which it was pressed stays down for one frame
   std::vector<SDL_Scancode> fresh_, let_go_, up_;
   Uint64 last_ = 0;
