@@ -1,4 +1,4 @@
-# Packages for Debian 12: burr, libburr0, libburr-dev, and python3-burr where the module was built (scripts/package.sh).
+# Packages for the Debian on which burr was built, 12 or 13: burr, libburr0, libburr-dev, and python3-burr where the module was built (scripts/package.sh).
 # Which file goes where is the component of each install() in cmake/install.cmake.
 set(BURR_PACKAGE_DIR ${CMAKE_BINARY_DIR}/package)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Inside a bare Debian 12, as root: installs the packages, uses burr as an ordinary user, removes it, and looks for what is
+# Inside a bare Debian, as root: installs the packages, uses burr as an ordinary user, removes it, and looks for what is
 # left. scripts/bare_debian.sh package starts it.
 #
 #     packaging/try_in_debian.sh FOLDER        of the .deb files

@@ -5,6 +5,8 @@
 #
 # With BURR_REQUIRE_TOOLS=1 (CI), `test` also installs the large tools of section [tools].
 # Does nothing, and needs no network and no rights, if none is missing.
+#
+# A line of the list with a release in brackets ("name [bookworm]  # why") is for that release alone.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 
@@ -19,8 +21,10 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   exit 1
 fi
 
+release=$(source /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
+system=$(source /etc/os-release && echo "${PRETTY_NAME:-a Debian of unknown release}")
 installed=$(dpkg-query -W -f '${Package} ${db:Status-Abbrev}\n' | awk '$2 ~ /^.i/ {print $1}')
-missing=() section=
+missing=() elsewhere=() section=
 while IFS= read -r line; do
   case $line in
     '[run]') section=run; continue ;;
@@ -31,12 +35,21 @@ while IFS= read -r line; do
   [ "$section" = run ] || [ "$wanted" = test ] || continue
   [ "$section" != tools ] || [ "${BURR_REQUIRE_TOOLS:-0}" = 1 ] || continue
   package=${line%%[ #]*}
+  if [[ $line =~ ^[^#]*\[([a-z]+)\] && ${BASH_REMATCH[1]} != "$release" ]]; then
+    elsewhere+=("$package (only on ${BASH_REMATCH[1]}: ${line#*# })")
+    continue
+  fi
   grep -qxF "$package" <<<"$installed" && continue
   missing+=("$package")
   [ ${#missing[@]} -gt 1 ] || echo "burr: missing Debian packages:"
   printf '  %-24s %s\n' "$package" "${line#*# }"
 done <"$here/packages.txt"
 [ ${#missing[@]} -gt 0 ] || exit 0
+for one in "${elsewhere[@]}"; do echo "burr: left out on $system: $one"; done
+case $release in
+  bookworm | trixie) ;;
+  *) echo "burr: this is $system. burr was built and tested on Debian 12 and 13 only; a package may have another name or be too old here" ;;
+esac
 
 root=()
 if [ "$(id -u)" != 0 ]; then

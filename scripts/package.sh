@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes the packages for Debian 12 of what was built: burr, libburr0, libburr-dev, python3-burr.
+# Makes packages of what was built: burr, libburr0, libburr-dev, python3-burr. They are for the release of Debian on which it
+# was built and for no other, since the libraries that they need have other names there.
 #
 #     scripts/package.sh [BUILD] [OUT]        default: build/release, build/packages
 #

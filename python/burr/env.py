@@ -18,7 +18,7 @@ import numpy as np
 
 import burr
 
-try:  # not in Debian 12
+try:  # not in Debian
     import gymnasium
     from gymnasium.spaces import Box, Dict
     _Base: Any = gymnasium.Env

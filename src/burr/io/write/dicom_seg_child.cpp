@@ -2,6 +2,7 @@
 #include "burr/io/write/dicom_seg_child.h"
 
 #include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dcdict.h>
 #include <dcmtk/dcmdata/dcfilefo.h>
 #include <dcmtk/dcmdata/dcspchrs.h>
 #include <dcmtk/dcmfg/fgfracon.h>
@@ -318,8 +319,8 @@ int write_one_segmentation() {
   try {
     if (!dcmDataDict.isDictionaryLoaded())
       throw std::runtime_error(
-          "the names of DICOM's elements (dicom.dic of DCMTK) cannot be found; install the "
-          "package libdcmtk17 again");
+          "the names of DICOM's elements (dicom.dic of DCMTK) cannot be found; install its package "
+          "again (Debian 12: libdcmtk17, Debian 13: dcmtk-data)");
     write_file();
   } catch (const std::bad_alloc&) {
     say("error there is too little memory for so many frames; write .seg.nrrd, or fewer voxels "
