@@ -3,6 +3,7 @@
 // toml++. Its code is compiled once, in safe_toml.cpp.
 #pragma once
 
+#include <cstdint>  // the table of blanks of toml++ 3.4 needs it and does not say so
 #include <string_view>
 
 #include "burr/base/result.h"
