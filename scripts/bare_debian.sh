@@ -118,15 +118,14 @@ in_clone() {
   echo "bare_debian.sh: $name: ${results[-1]}"
 }
 
-# FOLDER of packages: only those of the same release
+# FOLDER of packages: the release on which they were made
+made_on() {
+  dpkg-deb --fsys-tarfile "$1"/burr_*.deb | tar -xO ./usr/share/doc/burr/changelog.Debian.gz | zcat | sed -n '1s/.*) \([a-z]*\);.*/\1/p'
+}
+
+# FOLDER of packages
 try_packages() {
-  local made started=$SECONDS code=0
-  made=$(dpkg-deb --fsys-tarfile "$1"/burr_*.deb | tar -xO ./usr/share/doc/burr/changelog.Debian.gz | zcat | sed -n '1s/.*) \([a-z]*\);.*/\1/p')
-  if [ "$made" != "$release" ]; then
-    echo "bare_debian.sh: the packages in $1 were made on ${made:-an unknown release}, this is $release;" \
-      "scripts/package.sh makes them on $release, or: bare_debian.sh $release all" >&2
-    exit 1
-  fi
+  local started=$SECONDS code=0
   rm -rf --one-file-system "$bare/packages"
   mkdir "$bare/packages"
   cp "$1"/*.deb "$bare/packages/"
@@ -140,9 +139,17 @@ if [ $again = yes ] && [ -f "$bare/.burr-bare" ] && [ "$(cat "$bare/.burr-bare")
   echo "bare_debian.sh: the system in $bare is not $release; leave out --again, or set BURR_BARE" >&2
   exit 1
 fi
-if [ $what = package ] && ! compgen -G "$checkout/build/packages/burr_*.deb" >/dev/null; then
-  echo "bare_debian.sh: there are no packages in build/packages; scripts/package.sh makes them" >&2
-  exit 1
+if [ $what = package ]; then
+  if ! compgen -G "$checkout/build/packages/burr_*.deb" >/dev/null; then
+    echo "bare_debian.sh: there are no packages in build/packages; scripts/package.sh makes them" >&2
+    exit 1
+  fi
+  made=$(made_on "$checkout/build/packages")
+  if [ "$made" != "$release" ]; then
+    echo "bare_debian.sh: the packages in build/packages were made on ${made:-an unknown release}, and this is $release;" \
+      "scripts/package.sh makes them on $release, or: bare_debian.sh $release all" >&2
+    exit 1
+  fi
 fi
 [ $again = yes ] && [ -f "$bare/.burr-bare" ] || make_system
 set_up
@@ -156,12 +163,12 @@ case $what in
     in_clone ./test
     in_clone scripts/package.sh
     if compgen -G "$bare/newcomer/burr/build/packages/burr_*.deb" >/dev/null; then
-      made=$(mktemp -d)
-      trap 'rm -rf "$made"' EXIT
-      cp "$bare"/newcomer/burr/build/packages/*.deb "$made/"
+      kept=$(mktemp -d)
+      trap 'rm -rf "$kept"' EXIT
+      cp "$bare"/newcomer/burr/build/packages/*.deb "$kept/"
       make_system # so that the packages meet nothing that ./test has installed
       set_up
-      try_packages "$made"
+      try_packages "$kept"
     fi
     echo "bare_debian.sh: $name, $(git -c safe.directory='*' -C "$checkout" log -1 --format=%h):"
     printf '  %s\n' "${results[@]}"

@@ -44,6 +44,8 @@ for command in info mill export replay repair phantom run psychophysics; do
 done
 expect 2 'usage' ./test --no-such-option
 expect 2 'usage' scripts/install_packages.sh nonsense
+expect 2 'bookworm.trixie' scripts/bare_debian.sh run # without the release
+expect 2 'bookworm.trixie' scripts/bare_debian.sh sid run
 expect 2 '' scripts/rooms.py --no-such-option
 
 if grep -qE '^  info' <<<"$all"; then
