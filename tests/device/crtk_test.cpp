@@ -613,13 +613,13 @@ TEST_F(LeaderTest, OpenedAndClosedManyTimesNothingIsLeft) {
     }));
     return trouble;
   };
-  const auto often = [&](int rounds) {
+  const auto often = [&](int times) {
     std::vector<std::string> troubles(names.size());
     {
       std::vector<std::jthread> threads;
       for (std::size_t i = 0; i < names.size(); ++i)
         threads.emplace_back([&, i] {
-          for (int n = 0; n < rounds && troubles[i].empty(); ++n) troubles[i] = once(names[i]);
+          for (int n = 0; n < times && troubles[i].empty(); ++n) troubles[i] = once(names[i]);
         });
     }
     for (const std::string& trouble : troubles) EXPECT_EQ(trouble, "");

@@ -118,7 +118,7 @@ TEST(Resample, KeepsASlopeToTheNearestWholeNumber) {
   for (int n = 0; n < 40 * 6 * 6; ++n)
     grey.voxels.push_back(static_cast<std::int16_t>(std::lround(10 * kSlope * (n % 40))));
   NoProgress quiet;
-  ASSERT_TRUE(resample(grey, {40, 6, 6}, {kScale, 1, 1}, {kFirst, 0, 0}, quiet));
+  ASSERT_TRUE(resample(grey, {{40, 6, 6}, {kScale, 1, 1}, {kFirst, 0, 0}}, quiet));
   for (int i = 3; i < 40; ++i)
     EXPECT_NEAR(grey.voxels[static_cast<std::size_t>(i)], 10 * kSlope * (kFirst + kScale * i), 0.53)
         << i;
@@ -132,7 +132,7 @@ TEST(SmoothNear, LeavesAScanWithoutASurfaceAsItIs) {
     for (int n = 0; n < 12 * 12 * 12; ++n) grey.voxels.push_back(static_cast<std::int16_t>(n));
     const std::vector<std::int16_t> before = grey.voxels;
     NoProgress quiet;
-    ASSERT_TRUE(smooth_near(grey, iso, 10, {1, 1, 1}, quiet));
+    ASSERT_TRUE(smooth_near(grey, iso, 10, {1, 1, 1}, false, quiet));
     EXPECT_EQ(grey.voxels, before) << iso;
   }
 }

@@ -1,6 +1,7 @@
 // The separate parts of a bone: counted against a flood fill, and removed without a trace.
 #include "burr/importing/parts.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 #include "burr/importing/import.h"
 #include "burr/io/read/read_scan.h"
+#include "burr/surface/enclosed.h"
 #include "burr/volume/volume_of.h"
 #include "support/data.h"
 
@@ -184,9 +186,11 @@ TEST(RemoveParts, ATableBesideABallGoesWithoutATrace) {
   ASSERT_TRUE(kept.summary.parts);
   EXPECT_EQ(kept.summary.parts->count, 2U);
   EXPECT_EQ(kept.summary.parts->removed, 1U);
-  EXPECT_NEAR(kept.summary.parts->removed_mm3, 26 * 4 * 26, 1e-9);
+  const double table = 1e9 * (surface::enclosed_volume(*with.bone) -
+                              surface::enclosed_volume(*alone.bone));  // what its mesh encloses
+  EXPECT_NEAR(kept.summary.parts->removed_mm3, table, 0.005 * table);
   EXPECT_TRUE(says(kept.summary, "One of 2 separate parts was removed")) << "no notice";
-  EXPECT_TRUE(says(kept.summary, "2704 mm3"));
+  EXPECT_TRUE(says(kept.summary, fmt::format("{:.0f} mm3", kept.summary.parts->removed_mm3)));
 }
 
 // One layer of air between them is the least that two parts can have.
@@ -276,8 +280,11 @@ TEST(ChooseParts, BySizePointAndVolume) {
   EXPECT_TRUE(says(found(recipe), "has only 4 parts, so --keep 9 keeps them all"));
   recipe.keep = {};
   recipe.drop_islands_mm3 = 1.5;
-  EXPECT_EQ(found(recipe).parts->removed, 1U) << "the single voxel, of 1 mm3";
-  EXPECT_TRUE(says(found(recipe), "(--drop-islands-mm3): 1 mm3, at -12,39,33 mm"));
+  EXPECT_EQ(found(recipe).parts->removed, 1U) << "the single voxel: an octahedron of half a voxel";
+  const double reach = (1000 - 300) / 2000.0;  // from the voxel to the level, along each axis
+  EXPECT_NEAR(found(recipe).parts->removed_mm3, 4.0 / 3 * reach * reach * reach, 0.002);
+  EXPECT_TRUE(says(found(recipe), "(--drop-islands-mm3): 0.05"));
+  EXPECT_TRUE(says(found(recipe), "mm3, at -12,39,33 mm"));
   recipe.drop_islands_mm3 = 20;
   EXPECT_EQ(found(recipe).parts->removed, 2U);
 }
@@ -308,7 +315,8 @@ TEST(ChooseParts, APointBesideBoneIsSaid) {
 
 // ---- real scans
 
-// Voxels of the file, without smoothing, so that the second method sees the same.
+// The second method paints the voxels of the bone that an import makes, and looks for each voxel of the
+// file in it: without smoothing, on the file's own voxels.
 void counts_as_a_flood_fill(const char* file, const std::optional<scenario::Region>& region) {
   NoProgress progress;
   const auto scan = io::read_scan((test::data_dir() / file).string(), {}, progress);
@@ -321,19 +329,33 @@ void counts_as_a_flood_fill(const char* file, const std::optional<scenario::Regi
   ASSERT_EQ(plan->size, plan->roi_size) << "resampled: the voxels are not those of the file";
   const Status counted = count_parts(*scan, recipe, progress, *plan);
   ASSERT_TRUE(counted) << counted.error().text;
-  const auto sizes = flood(plan->size, [&](const Ijk& p) {
-    const Ijk v = p + plan->roi_from;
-    return double{scan->values[static_cast<std::size_t>(
-               v.x() + scan->size.x() * (v.y() + scan->size.y() * v.z()))]} >= plan->iso;
-  });
-  const double each = scan->spacing_mm.prod();
+  const Imported made = made_of(*scan, recipe);
+  ASSERT_TRUE(made.bone);
+  const Bone& bone = *made.bone;
+  const auto inside = [&bone](const Ijk& p) {
+    return bone.field(p.x(), p.y(), p.z()) >= volume::kIso;
+  };
+  const auto sizes = flood(bone.grid().size, inside);
   EXPECT_GT(sizes.size(), 5U) << "not much to count";
   EXPECT_EQ(plan->parts->count, sizes.size());
-  EXPECT_NEAR(plan->parts->largest_mm3, static_cast<double>(sizes[0]) * each, 1e-6 * each);
-  EXPECT_EQ(plan->parts->islands,
-            static_cast<std::size_t>(std::count_if(sizes.begin(), sizes.end(), [&](std::int64_t n) {
-              return static_cast<double>(n) * each < kIslandMm3;
-            })));
+  // what a mesh encloses is near the sum of its voxels where a part is thick
+  const double each = scan->spacing_mm.prod();
+  EXPECT_NEAR(plan->parts->largest_mm3 / (static_cast<double>(sizes[0]) * each), 1, 0.1);
+  // all bone of the file, and few voxels more: those that join crumbs
+  std::int64_t lost = 0, own = 0;
+  const Ijk margin = (bone.grid().size - plan->size) / 2;
+  for (int k = 0; k < plan->size.z(); ++k)
+    for (int j = 0; j < plan->size.y(); ++j)
+      for (int i = 0; i < plan->size.x(); ++i) {
+        const Ijk v = Ijk(i, j, k) + plan->roi_from;
+        if (double{scan->values[static_cast<std::size_t>(
+                v.x() + scan->size.x() * (v.y() + scan->size.y() * v.z()))]} < plan->iso)
+          continue;
+        ++own;
+        if (!inside(Ijk(i, j, k) + margin)) ++lost;
+      }
+  EXPECT_EQ(lost, 0);
+  EXPECT_LT(std::accumulate(sizes.begin(), sizes.end(), std::int64_t{0}), own + own / 50);
 }
 
 TEST(RealParts, OfAJawAreCountedAsAFloodFillCountsThem) {

@@ -78,6 +78,7 @@ TEST(RecordedRecipe, OfAnOlderRecordingIsTheSame) {
   wanted.margin = false;  // older than the layers of air at the border
   wanted.check_values = false;
   wanted.check_scan = false;
+  wanted.bone_law = 1;
   EXPECT_TRUE(read->volume.recipe == wanted) << scenario::to_json(read->volume.recipe);
   EXPECT_EQ(read->volume.format, "formula");
 
@@ -103,6 +104,7 @@ TEST(RecordedRecipe, OfAnOlderRecordingIsTheSame) {
   wanted.margin = false;  // older than the layers of air at the border
   wanted.check_values = false;
   wanted.check_scan = false;
+  wanted.bone_law = 1;
   EXPECT_TRUE(read->volume.recipe == wanted) << scenario::to_json(read->volume.recipe);
 }
 

@@ -41,6 +41,7 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
     if (coin()) recipe.margin = false;
     if (coin()) recipe.check_values = false;
     if (coin()) recipe.check_scan = false;
+    if (coin()) recipe.bone_law = 1;
     if (coin()) recipe.keep.largest = 1 + static_cast<int>(random() % 100);
     while (random() % 3 == 0)
       recipe.keep.at_mm.emplace_back(1 - 1e3 * share(random), share(random) / 3, 1e-9);
@@ -65,6 +66,8 @@ TEST(Recipe, WithoutAWordOfTheMarginHasNone) {
   EXPECT_TRUE(Recipe{}.check_values);
   EXPECT_FALSE(old->check_scan);
   EXPECT_TRUE(Recipe{}.check_scan);
+  EXPECT_EQ(old->bone_law, 1);
+  EXPECT_EQ(Recipe{}.bone_law, 2);
 }
 
 TEST(Recipe, WithoutPathsNamesNobody) {

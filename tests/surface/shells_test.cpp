@@ -63,5 +63,18 @@ TEST(Shells, TheLargestPartKeepsItsOwnCavityAndNoOther) {
   EXPECT_NEAR(shape.volume, shells.volume, 1e-12);
 }
 
+TEST(Shells, CrumbsAreLeftOutWhole) {
+  const Mesh whole = mesh_of(nested);
+  LeftOut left_out;
+  const Mesh mesh = without_crumbs(whole, 1e-9, left_out);
+  EXPECT_EQ(left_out.parts, 1U);
+  EXPECT_NEAR(left_out.volume, shells_of(whole).volume - shells_of(mesh).volume, 1e-15);
+  EXPECT_EQ(test::shape_of(mesh).trouble, "");
+  EXPECT_EQ(shells_of(mesh).parts, 3U);
+  EXPECT_EQ(shells_of(mesh).cavities, 3U);
+  EXPECT_EQ(without_crumbs(whole, 1e-12, left_out).triangles.size(), whole.triangles.size());
+  EXPECT_EQ(left_out.parts, 0U);
+}
+
 }  // namespace
 }  // namespace burr::surface

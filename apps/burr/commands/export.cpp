@@ -289,12 +289,17 @@ Status run(const Options& options) {
       row["islands"] = shells.islands;
       row["cavities"] = shells.cavities;
       row["largest_mm3"] = shells.largest * 1e9;
+      row["crumbs"] = exported.value().crumbs.parts;
     }
     fmt::print("{}\n", json_line(row));
   } else if (exported.value().triangles > 0) {
     fmt::print("{}: {:.1f} mm^3 in {} triangles\n", options.out, volume_mm3,
                exported.value().triangles);
     fmt::print("{}\n", parts_text(shells, options.largest));
+    if (const surface::LeftOut& crumbs = exported.value().crumbs; crumbs.parts > 0)
+      fmt::print("  {} below one voxel {} left out ({:.2g} mm^3 in all)\n",
+                 count_text(crumbs.parts, "crumb", "crumbs"), crumbs.parts == 1 ? "was" : "were",
+                 crumbs.volume * 1e9);
   } else {
     fmt::print("{}: {:.1f} mm^3\n", options.out, volume_mm3);
   }

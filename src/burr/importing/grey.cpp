@@ -34,6 +34,10 @@ double catmull_rom(double x) {
 // The old samples that make one new sample, and their weights.
 struct Taps {
   int first = 0;
+  // on a finer axis the two around it, those around them, and how far it lies from `below` to `above`;
+  // below -1: a coarser axis
+  int before = 0, below = -1, above = 0, after = 0;
+  float share = 0;
   std::vector<float> weights;
 };
 
@@ -56,12 +60,48 @@ std::vector<Taps> taps(int from, int to, double scale, double first) {
       total += w;
     }
     for (const double w : sum) tap.weights.push_back(static_cast<float>(w / total));
+    if (scale > 1) continue;
+    tap.below = std::clamp(static_cast<int>(std::floor(at)), 0, from - 1);
+    tap.above = std::clamp(tap.below + 1, 0, from - 1);
+    tap.before = std::clamp(tap.below - 1, 0, from - 1);
+    tap.after = std::clamp(tap.below + 2, 0, from - 1);
+    tap.share = std::clamp(static_cast<float>(at - tap.below), 0.0F, 1.0F);
   }
   return all;
 }
 
 std::int16_t rounded(float value) {
   return static_cast<std::int16_t>(std::lrintf(std::clamp(value, -32768.0F, 32767.0F)));
+}
+
+// The new value at the share t of the way from a to b; `before` and `after` lie around these two. Where a
+// or b is the end of a rise, as in a wall one or two voxels thin, the straight line between them, as
+// marching cubes takes it: a cubic is wider there. Else the cubic, within the range of a and b.
+inline std::int16_t faithful(std::int16_t cubic, int before, int a, int b, int after, float t) {
+  const int low = a < b ? a : b, high = a < b ? b : a;
+  const bool ends = (a > before) != (b > a) || (b > a) != (after > b);
+  if (ends)
+    return static_cast<std::int16_t>(
+        std::lrintf(static_cast<float>(a) + t * static_cast<float>(b - a)));
+  return static_cast<std::int16_t>(cubic < low ? low : cubic > high ? high : int{cubic});
+}
+
+// The same for a row, given the four rows around it. Where all is below the level nothing changes.
+void make_faithful(const std::array<const std::int16_t*, 4>& rows, float t, std::size_t length,
+                   std::int16_t level, std::int16_t* target) {
+  constexpr std::size_t kChunk = 32;
+  for (std::size_t from = 0; from < length; from += kChunk) {
+    const std::size_t to = std::min(length, from + kChunk);
+    std::int16_t highest = std::numeric_limits<std::int16_t>::min();
+    for (std::size_t x = from; x < to; ++x) {
+      const std::int16_t a = rows[1][x] > rows[2][x] ? rows[1][x] : rows[2][x];
+      const std::int16_t b = a > target[x] ? a : target[x];
+      highest = highest > b ? highest : b;
+    }
+    if (highest < level) continue;
+    for (std::size_t x = from; x < to; ++x)
+      target[x] = faithful(target[x], rows[0][x], rows[1][x], rows[2][x], rows[3][x], t);
+  }
 }
 
 // weighted sums of whole rows: for the y and z axis
@@ -259,7 +299,7 @@ SmoothEight smooth_kernel() noexcept {
 }  // namespace
 
 bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math::Vec3& spacing_mm,
-                 Progress& progress) {
+                 bool faithful, Progress& progress) {
   constexpr int kReach = 2, kLanes = 8;
   const int nx = grey.size.x(), ny = grey.size.y(), nz = grey.size.z();
   if (grey.size.minCoeff() <= 2 * kReach || iso_stored > 32767) return true;  // no surface
@@ -302,25 +342,34 @@ bool smooth_near(Grey& grey, double iso_stored, double noise_stored, const math:
       near_surface.look(source.data() + row, sy, sz, level);
       for (int i0 = kReach; i0 < nx - kReach; i0 += kLanes) {
         const int lanes = std::min(kLanes, nx - kReach - i0);
-        if (near_surface.any(i0, lanes))
-          smooth_eight(source.data() + row + i0, rule, lanes, grey.voxels.data() + row + i0);
+        if (!near_surface.any(i0, lanes)) continue;
+        smooth_eight(source.data() + row + i0, rule, lanes, grey.voxels.data() + row + i0);
+        if (!faithful) continue;
+        for (std::ptrdiff_t v = row + i0; v < row + i0 + lanes; ++v) {
+          const std::int16_t* at = source.data() + v;
+          std::int16_t& now = grey.voxels[static_cast<std::size_t>(v)];
+          // no bone where neither the voxel nor one beside it reached the level
+          if (now >= level && at[0] < level && at[1] < level && at[-1] < level && at[sy] < level &&
+              at[-sy] < level && at[sz] < level && at[-sz] < level)
+            now = at[0];
+        }
       }
     }
   });
 }
 
-bool resample(Grey& grey, const math::Ijk& to, const math::Vec3& scale, const math::Vec3& first,
-              Progress& progress) {
+bool resample(Grey& grey, const NewGrid& to, Progress& progress,
+              std::vector<std::int16_t>* before_it) {
   const auto same = [&](int axis) {
-    return std::abs(scale[axis] - 1) < 1e-9 && std::abs(first[axis]) < 1e-9 &&
-           to[axis] == grey.size[axis];
+    return std::abs(to.scale[axis] - 1) < 1e-9 && std::abs(to.first[axis]) < 1e-9 &&
+           to.size[axis] == grey.size[axis];
   };
   for (const int axis : {0, 1, 2}) {
     if (same(axis)) continue;
     const math::Ijk old = grey.size;
     math::Ijk fresh = old;
-    fresh[axis] = to[axis];
-    const std::vector<Taps> all = taps(old[axis], to[axis], scale[axis], first[axis]);
+    fresh[axis] = to.size[axis];
+    const std::vector<Taps> all = taps(old[axis], to.size[axis], to.scale[axis], to.first[axis]);
     std::vector<std::int16_t> out(count(fresh));
     const auto nx = static_cast<std::size_t>(old.x()), ny = static_cast<std::size_t>(old.y());
     const auto fx = static_cast<std::size_t>(fresh.x()), fy = static_cast<std::size_t>(fresh.y());
@@ -339,23 +388,73 @@ bool resample(Grey& grey, const math::Ijk& to, const math::Vec3& scale, const ma
               sum +=
                   tap.weights[t] * static_cast<float>(row[static_cast<std::size_t>(tap.first) + t]);
             target[i] = rounded(sum);
+            if (to.faithful && tap.below >= 0 &&
+                std::max({target[i], row[tap.below], row[tap.above]}) >= to.level)
+              target[i] = faithful(target[i], row[tap.before], row[tap.below], row[tap.above],
+                                   row[tap.after], tap.share);
           }
           continue;
         }
         const Taps& tap = all[axis == 1 ? j : k];
+        const auto line = [&](int n) {
+          const auto at = static_cast<std::size_t>(n);
+          return grey.voxels.data() + (axis == 1 ? nx * (at + ny * k) : nx * (j + ny * at));
+        };
         rows.clear();
-        for (std::size_t t = 0; t < tap.weights.size(); ++t) {
-          const std::size_t line = static_cast<std::size_t>(tap.first) + t;
-          rows.push_back(grey.voxels.data() +
-                         (axis == 1 ? nx * (line + ny * k) : nx * (j + ny * line)));
-        }
+        for (std::size_t t = 0; t < tap.weights.size(); ++t)
+          rows.push_back(line(tap.first + static_cast<int>(t)));
         sum_rows(rows.data(), tap.weights.data(), rows.size(), nx, work, target);
+        if (!to.faithful || tap.below < 0) continue;
+        const std::int16_t *before = line(tap.before), *below = line(tap.below),
+                           *above = line(tap.above), *after = line(tap.after);
+        make_faithful({before, below, above, after}, tap.share, nx, to.level, target);
       }
     });
     if (!done) return false;
-    grey.voxels = std::move(out);
+    grey.voxels.swap(out);
+    if (before_it != nullptr && before_it->empty()) *before_it = std::move(out);
     grey.size = fresh;
   }
+  return true;
+}
+
+bool make_cubic(Grey& grey, std::int16_t level, NewGrid to, Progress& progress) {
+  const bool finer = to.scale.maxCoeff() <= 1 + 1e-9, changes = !to.scale.isOnes(1e-9);
+  if (!to.faithful || !finer || !changes) return resample(grey, to, progress);
+  to.level = level;
+  const math::Ijk size = grey.size;
+  std::vector<std::int16_t> old;
+  if (!resample(grey, to, progress, &old)) return false;
+  if (old.empty()) return true;  // nothing was changed
+  // along each axis, of an old voxel: the new one before it, and the nearest
+  std::array<std::vector<std::size_t>, 3> before, nearest;
+  for (int a = 0; a < 3; ++a)
+    for (int n = 0; n < size[a]; ++n) {
+      const double at = (n - to.first[a]) / to.scale[a];
+      const auto bounded = [&](double v) {
+        return static_cast<std::size_t>(std::clamp(v, 0.0, to.size[a] - 1.0));
+      };
+      before[static_cast<std::size_t>(a)].push_back(bounded(std::floor(at)));
+      nearest[static_cast<std::size_t>(a)].push_back(bounded(std::round(at)));
+    }
+  const auto nx = static_cast<std::size_t>(to.size.x()), ny = static_cast<std::size_t>(to.size.y()),
+             nz = static_cast<std::size_t>(to.size.z());
+  std::size_t v = 0;
+  for (std::size_t k = 0; k < before[2].size(); ++k)
+    for (std::size_t j = 0; j < before[1].size(); ++j) {
+      const std::size_t y = before[1][j], z = before[2][k];
+      const std::size_t up = y + 1 < ny ? nx : 0, above = z + 1 < nz ? nx * ny : 0;
+      for (std::size_t i = 0; i < before[0].size(); ++i, ++v) {
+        if (old[v] < level) continue;
+        const std::size_t x = before[0][i], right = x + 1 < nx ? 1 : 0;
+        const std::int16_t* at = grey.voxels.data() + x + nx * (y + ny * z);
+        if (at[0] >= level || at[right] >= level || at[up] >= level || at[up + right] >= level ||
+            at[above] >= level || at[above + right] >= level || at[above + up] >= level ||
+            at[above + up + right] >= level)
+          continue;
+        grey.voxels[nearest[0][i] + nx * (nearest[1][j] + ny * nearest[2][k])] = old[v];
+      }
+    }
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -140,6 +141,22 @@ void fill(const Parts& parts, const std::vector<bool>& kept, const std::vector<V
   });
 }
 
+template <class Value>
+void remove_any(const Parts& parts, const std::vector<bool>& kept, std::vector<Value>& voxels) {
+  std::vector<std::int64_t> sums(kept.size()), counts(kept.size());
+  around(parts, kept, [&](std::uint32_t part, std::size_t voxel) {
+    sums[part] += voxels[voxel];
+    ++counts[part];
+  });
+  // rounded down: the mean of values below the level stays below it
+  std::vector<Value> mean(kept.size(), std::numeric_limits<Value>::min());
+  for (std::size_t n = 0; n < kept.size(); ++n)
+    if (counts[n] > 0)
+      mean[n] = static_cast<Value>(
+          std::floor(static_cast<double>(sums[n]) / static_cast<double>(counts[n])));
+  fill(parts, kept, mean, voxels);
+}
+
 struct Nearest {
   std::uint32_t part = 0;
   double mm = 0;
@@ -213,13 +230,18 @@ std::optional<Parts> find_parts(const Ijk& size, const InsideRow& inside, Progre
   for (int k = 0; k < size.z(); ++k) {
     for (int j = 0; j < size.y(); ++j) {
       inside(j, k, row);
-      const auto at = [&row](int i) { return row[static_cast<std::size_t>(i)] != 0; };
+      // the next voxel of this kind; a row is mostly air, or mostly bone
+      const auto next = [&row, nx](int i, int kind) {
+        const void* found = std::memchr(row.data() + i, kind, static_cast<std::size_t>(nx - i));
+        return found == nullptr
+                   ? nx
+                   : static_cast<int>(static_cast<const std::uint8_t*>(found) - row.data());
+      };
       const std::size_t first = parts.runs.size(), number = parts.starts.size() - 1;
-      for (int i = 0; i < nx; ++i) {
-        if (!at(i)) continue;
-        const int from = i;
-        while (i < nx && at(i)) ++i;
-        parts.runs.push_back({from, i, static_cast<std::uint32_t>(parts.runs.size())});
+      for (int from = next(0, 1); from < nx;) {
+        const int to = next(from, 0);
+        parts.runs.push_back({from, to, static_cast<std::uint32_t>(parts.runs.size())});
+        from = to < nx ? next(to, 1) : nx;
       }
       parts.starts.push_back(parts.runs.size());
       if (j > 0) join_rows(parts.runs, parts.starts[number - 1], first, first, parts.runs.size());
@@ -242,7 +264,9 @@ Result<ChosenParts> choose_parts(const Parts& parts, const scenario::Recipe& rec
   PartsFound& found = out.found;
   const std::size_t count = parts.parts.size();
   const double each = place.voxel_mm.prod();
-  const auto mm3 = [&](std::size_t n) { return static_cast<double>(parts.parts[n]) * each; };
+  const auto mm3 = [&](std::size_t n) {
+    return (parts.volumes.empty() ? static_cast<double>(parts.parts[n]) : parts.volumes[n]) * each;
+  };
   found.count = count;
   for (std::size_t n = 0; n < count; ++n) {
     found.mm3 += mm3(n);
@@ -258,8 +282,9 @@ Result<ChosenParts> choose_parts(const Parts& parts, const scenario::Recipe& rec
                                       count == 1 ? "" : "s", wanted,
                                       count == 1 ? "it" : "them all"));
   if (Status status = keep_at(parts, recipe.keep.at_mm, place, out); !status) return status.error();
-  for (std::size_t n = 0; n < count; ++n)
-    if (mm3(n) < recipe.drop_islands_mm3) out.kept[n] = false;
+  if (recipe.drop_islands_mm3 > 0)
+    for (std::size_t n = 0; n < count; ++n)
+      if (mm3(n) < recipe.drop_islands_mm3) out.kept[n] = false;
 
   std::size_t largest = count;
   for (std::size_t n = 0; n < count; ++n) {
@@ -291,20 +316,13 @@ Result<ChosenParts> choose_parts(const Parts& parts, const scenario::Recipe& rec
   return out;
 }
 
-void remove_grey(const Parts& parts, const std::vector<bool>& kept,
-                 std::vector<std::int16_t>& voxels) {
-  std::vector<std::int64_t> sums(kept.size()), counts(kept.size());
-  around(parts, kept, [&](std::uint32_t part, std::size_t voxel) {
-    sums[part] += voxels[voxel];
-    ++counts[part];
-  });
-  // rounded down: the mean of values below the level stays below it
-  std::vector<std::int16_t> mean(kept.size(), std::numeric_limits<std::int16_t>::min());
-  for (std::size_t n = 0; n < kept.size(); ++n)
-    if (counts[n] > 0)
-      mean[n] = static_cast<std::int16_t>(
-          std::floor(static_cast<double>(sums[n]) / static_cast<double>(counts[n])));
-  fill(parts, kept, mean, voxels);
+void remove_values(const Parts& parts, const std::vector<bool>& kept,
+                   std::vector<std::int16_t>& voxels) {
+  remove_any(parts, kept, voxels);
+}
+void remove_values(const Parts& parts, const std::vector<bool>& kept,
+                   std::vector<std::uint8_t>& voxels) {
+  remove_any(parts, kept, voxels);
 }
 
 void remove_labels(const Parts& parts, const std::vector<bool>& kept,

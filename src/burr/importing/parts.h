@@ -2,12 +2,13 @@
 // scan also holds the table, the head rest, the cylinder of the scanner, and islands of noise.
 //
 // The rule: two voxels belong to one part if both are inside and they share a face (6
-// neighbours); over an edge or a corner they do not touch. Counted in the bone's own voxels for
-// grey scans, after smoothing, and in the file's voxels for label maps.
+// neighbours); over an edge or a corner they do not touch. Counted in the bone's own voxels, of grey
+// scans after smoothing. The field and the mesh have the same parts (settle.h, surface/mesher.h), and
+// the volume of a part is what its mesh encloses (part_volumes.h).
 //
 //     auto parts = find_parts(grid.size, row, progress);        // row: which voxels are inside
 //     auto chosen = choose_parts(*parts, recipe, place);        // chosen->kept, chosen->notices
-//     if (chosen->removes()) remove_grey(*parts, chosen->kept, iso, grey.voxels);
+//     if (chosen->removes()) remove_values(*parts, chosen->kept, grey.voxels);
 //
 // A part that is removed has no voxel beside a voxel of a part that is kept: else they were one.
 // So the edges of the grid on which the surface of a kept part lies keep the values at both their
@@ -43,6 +44,7 @@ struct Parts {
   std::vector<std::size_t> starts;  // the runs of row j + ny k: starts[row] .. starts[row + 1]
   std::vector<Run> runs;            // in the order of the voxels
   std::vector<std::int64_t> parts;  // voxels of each; the largest first, equal ones as they lie
+  std::vector<double> volumes;      // enclosed by the surface of each [voxel]; empty: not measured
   std::vector<math::Ijk> first;     // its first voxel, in the order of the voxels
   [[nodiscard]] std::optional<std::uint32_t> part_at(const math::Ijk& voxel) const;
 };
@@ -60,7 +62,7 @@ inline constexpr double kIslandMm3 = 0.1;
 // The separate parts of the bone (importing/parts.h), and which of them the recipe removes.
 struct PartsFound {
   std::size_t count = 0;  // before any is removed
-  double mm3 = 0;         // of all
+  double mm3 = 0;         // of all, enclosed by their surfaces
   double largest_mm3 = 0;
   std::size_t islands = 0;  // parts below kIslandMm3
   std::size_t removed = 0;
@@ -87,9 +89,11 @@ struct ChosenParts {
                                                const Place& place);
 
 // Gives the voxels of the parts that are not kept the mean value of the voxels around their part;
-// these lie below the level.
-void remove_grey(const Parts& parts, const std::vector<bool>& kept,
-                 std::vector<std::int16_t>& voxels);
+// these lie below the level. voxels: greys, or solid shares of voxels.
+void remove_values(const Parts& parts, const std::vector<bool>& kept,
+                   std::vector<std::int16_t>& voxels);
+void remove_values(const Parts& parts, const std::vector<bool>& kept,
+                   std::vector<std::uint8_t>& voxels);
 // The same with the label that is most frequent around the part. labels: of the same size.
 void remove_labels(const Parts& parts, const std::vector<bool>& kept,
                    std::vector<std::uint8_t>& labels);

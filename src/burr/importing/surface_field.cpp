@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "burr/importing/planes_kernel.h"
+#include "burr/importing/settle.h"
 #include "burr/importing/tissues.h"
 #include "burr/io/workers.h"
 #include "burr/rt/lanes.h"
@@ -26,8 +27,16 @@ using volume::TissueId;
 // gradient, and 3 may hold surface points that reach into the brick.
 constexpr int kHalo = 6, kBlock = kBrickEdge + 2 * kHalo, kPlane = kBlock * kBlock,
               kBlockVoxels = kPlane * kBlock;
-constexpr int kNoBlur = 2;      // grey is not blurred, so this border of the block is not needed
-constexpr float kReach = 3.0F;  // a point counts for voxels within this distance [voxel]
+constexpr int kNoBlur = 2;  // grey is not blurred, so this border of the block is not needed
+
+// How far the plane of a point may lie on the wrong side of a voxel for which it counts [voxel]: as
+// far as noise and curvature move it; in label maps also as far as a stair does.
+constexpr float kAgainstGrey = 0.4F, kAgainstLabels = 1.0F;
+constexpr float kCleanReach = 2.5F;  // in a clean scan a few points give the surface [voxel]
+constexpr float kAll = 1e30F;        // law 1: all points in the list of a row count
+
+// PlanesSay::sure from which on the planes alone count, and how far below it the value alone.
+constexpr double kFlat = 0.985, kBends = 0.1;
 
 constexpr int at(int x, int y, int z) { return x + kBlock * (y + kBlock * z); }
 
@@ -46,6 +55,7 @@ struct Desk {
   std::array<std::uint32_t, kBrickEdge * kBrickEdge> counts;
   std::vector<std::uint16_t> which;
   PlaneSums sums;
+  alignas(64) std::array<float, volume::kBrickVoxels> sides;  // of PlaneRule
   MaterialDirections directions;
   std::array<Field, volume::kBrickVoxels> field;  // the brick being made
   std::array<TissueId, volume::kBrickVoxels> tissue;
@@ -145,9 +155,16 @@ void find_points(const InsideGrid& grid, const math::Ijk& first, Desk& desk) {
       nz = axis == 2 ? along : 0;
       length = 1;
     }
-    SurfacePoint p{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
-                   nx / length,           ny / length,           nz / length};
+    SurfacePoint p{static_cast<float>(x),
+                   static_cast<float>(y),
+                   static_cast<float>(z),
+                   nx / length,
+                   ny / length,
+                   nz / length,
+                   0};
     (axis == 0 ? p.x : axis == 1 ? p.y : p.z) += t;
+    const float across = std::abs(axis == 0 ? p.nx : axis == 1 ? p.ny : p.nz);
+    p.steep = std::abs(la - lb) / std::max(across, 0.2F);
     p.x -= kHalo;
     p.y -= kHalo;
     p.z -= kHalo;
@@ -192,13 +209,12 @@ void face(Desk& desk) {
       }
 }
 
-// The rows of the brick within kReach of a point: bit y + 8 z. The first loop has no branch, so that
+// The rows of the brick within `reach` of a point: bit y + 8 z. The first loop has no branch, so that
 // the compiler takes four layers at once.
-std::uint64_t rows_near(const SurfacePoint& p) {
+std::uint64_t rows_near(const SurfacePoint& p, float reach) {
   std::array<int, kBrickEdge> from, end;  // of y, in each layer
   for (std::size_t z = 0; z < kBrickEdge; ++z) {
-    const float dz = static_cast<float>(static_cast<int>(z)) - p.z,
-                left = kReach * kReach - dz * dz;
+    const float dz = static_cast<float>(static_cast<int>(z)) - p.z, left = reach * reach - dz * dz;
     const float half = std::sqrt(left < 0 ? 0.0F : left);
     const float low = p.y - half > 0 ? p.y - half : 0.0F,
                 high = p.y + half < kBrickEdge - 1 ? p.y + half : kBrickEdge - 1;
@@ -217,14 +233,28 @@ std::uint64_t rows_near(const SurfacePoint& p) {
 // Sums over the points for every voxel. The softer, the more points share: this removes noise and
 // staircases but blunts edges. by_normal: points that face the other way do not count (thin walls
 // of label maps).
-void measure(float soft, bool by_normal, SumPlanes sum_planes, Desk& desk) {
+void measure(float soft, bool by_normal, int law, SumPlanes sum_planes, Desk& desk) {
   if (by_normal) face(desk);
+  for (int z = 0, v = 0; z < kBrickEdge; ++z)
+    for (int y = 0; y < kBrickEdge; ++y)
+      for (int x = 0; x < kBrickEdge; ++x, ++v)
+        desk.sides[static_cast<std::size_t>(v)] =
+            desk.level[static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo))] >= 0 ? 1.0F
+                                                                                           : -1.0F;
+  PlaneRule rule;
+  rule.soft = soft;
+  rule.against = by_normal ? kAgainstLabels : kAgainstGrey;
+  rule.sides = desk.sides.data();
+  rule.directions = by_normal ? &desk.directions : nullptr;
+  const float reach = law >= 2 && !by_normal && soft <= 1 ? kCleanReach : kReach;
+  rule.reach_square = law == 1 ? kAll : reach * reach;
+  if (law == 1) rule.against = kAll;
   // put each point into the lists of the rows that it counts for
   const std::size_t most = desk.points.size();
   if (desk.which.size() < most * desk.counts.size()) desk.which.resize(most * desk.counts.size());
   desk.counts.fill(0);
   for (std::size_t n = 0; n < most; ++n)
-    for (std::uint64_t left = rows_near(desk.points[n]); left != 0; left &= left - 1) {
+    for (std::uint64_t left = rows_near(desk.points[n], reach); left != 0; left &= left - 1) {
       const auto row = static_cast<std::size_t>(std::countr_zero(left));
       desk.which[row * most + desk.counts[row]++] = static_cast<std::uint16_t>(n);
     }
@@ -232,16 +262,21 @@ void measure(float soft, bool by_normal, SumPlanes sum_planes, Desk& desk) {
     for (int y = 0; y < kBrickEdge; ++y) {
       const auto row = static_cast<std::size_t>(y + kBrickEdge * z);
       sum_planes(desk.points.data(), desk.which.data() + row * most,
-                 static_cast<int>(desk.counts[row]), y, z, soft,
-                 by_normal ? &desk.directions : nullptr, desk.sums);
+                 static_cast<int>(desk.counts[row]), y, z, rule, desk.sums);
     }
 }
 
-// Depth of a voxel from the sums. On a surface of radius R the mean distance to the tangent planes
-// is too small by l^2 / 2R; the distance from the mean point along the mean normal is too large by
-// the same amount. Half of both is right to second order (a chord is perpendicular to the mean of
-// the normals at its ends).
-double depth_of(const PlaneSums& sums, std::size_t v) {
+// What the planes of the points say of a voxel.
+struct PlanesSay {
+  double depth = 0;
+  double sure =
+      0;  // length of the mean normal: 1 on a plane, less where the surface bends or folds
+};
+
+// On a surface of radius R the mean distance to the tangent planes is too small by l^2 / 2R; the
+// distance from the mean point along the mean normal is too large by the same amount. Half of both
+// is right to second order (a chord is perpendicular to the mean of the normals at its ends).
+PlanesSay planes_say(const PlaneSums& sums, std::size_t v) {
   const double w = 1.0 / double{sums.weights[v]};
   const double planes = double{sums.depths[v]} * w;
   const double length =
@@ -249,13 +284,32 @@ double depth_of(const PlaneSums& sums, std::size_t v) {
                 double{sums.nz[v]} * double{sums.nz[v]});
   // in the middle of a thin wall the normals cancel, and there is no mean normal
   const double sure = length * w;
-  if (sure < 0.6) return planes;
+  if (sure < 0.6) return {planes, sure};
   const double along =
       (double{sums.nx[v]} * double{sums.rx[v]} + double{sums.ny[v]} * double{sums.ry[v]} +
        double{sums.nz[v]} * double{sums.rz[v]}) *
       w / length;
   const double share = std::min(1.0, (sure - 0.6) / 0.2);
-  return planes + 0.5 * share * (along - planes);
+  return {planes + 0.5 * share * (along - planes), sure};
+}
+
+// Depth where the surface bends or folds within a voxel or two, so that planes say little: beside
+// the surface the value itself over its slope, which leaves the surface where the values cross the
+// level; farther away the distance to the nearest point.
+double depth_by_value(const PlaneSums& sums, std::size_t v, double level, double nearest) {
+  const double by_slope = level * double{sums.weights[v]} / double{sums.steep[v]};
+  const double by_point = level < 0 ? -nearest : nearest;
+  return by_slope + std::clamp((nearest - 0.8) / 0.4, 0.0, 1.0) * (by_point - by_slope);
+}
+
+// What the nearest point alone says of the distance: it is never more than that to the point, and,
+// because the points of a surface lie less than kApart from each other, not much less. So a mean of
+// planes that meet far away, as at the rim of a thin plate, makes no bone in air and no ramp.
+double within_bounds(double depth, double side, double square, double slack) {
+  constexpr double kApart = 1;  // from a surface to its nearest point, along it [voxel]
+  const double least = std::max(0.0, std::sqrt(std::max(0.0, square - kApart)) - slack),
+               most = std::sqrt(square) + slack;
+  return side * std::clamp(side * depth, least > 0 ? least : -most, most);
 }
 
 // Neighbours within 2.5 voxels, nearest first.
@@ -413,8 +467,60 @@ void grey_tissue_of(const InsideGrid& grid, const GreyTable& table, const math::
 }
 
 // first: of the brick, counted from the first voxel of the scan.
+constexpr double kFarAway = 10;  // deeper than any ramp [voxel]
+static_assert(volume::field_from_depth(kFarAway) == volume::kSolid &&
+              volume::field_from_depth(-kFarAway) == 0);
+
+// The field of a depth. Rounding takes no voxel of air into the bone.
+Field field_beside(double depth) {
+  const Field field = volume::field_from_depth(depth);
+  return depth < 0 && field >= volume::kIso ? Field{volume::kIso - 1} : field;
+}
+
+// The depth of a voxel, and that on the other side of the surface where the smoothing puts it there.
+struct VoxelDepth {
+  double depth = 0, wanted = 0;
+};
+
+// A voxel keeps the side of its value, just beside the surface, unless the smoothing moved the surface
+// over it by a little and settle() finds that no part comes or goes. A clean scan is not smoothed.
+VoxelDepth depth_of(const InsideGrid& grid, const PlaneSums& sums, std::size_t v, double level) {
+  const double side = level >= 0 ? 1 : -1, square = double{sums.nearest[v]},
+               nearest = std::sqrt(square);
+  if (square >= double{kReach * kReach}) return {side * kFarAway, side * kFarAway};
+  double wanted = side * nearest;
+  if (sums.weights[v] > 1e-12F) {
+    const PlanesSay say = planes_say(sums, v);
+    const double folded =
+        grid.grey == nullptr ? 0 : std::clamp((kFlat - say.sure) / kBends, 0.0, 1.0);
+    wanted = say.depth;
+    if (folded > 0) wanted += folded * (depth_by_value(sums, v, level, nearest) - wanted);
+  }
+  wanted = within_bounds(wanted, side, square, 0.1 * double{grid.soft});
+  if (side * wanted > 0) return {wanted, wanted};
+  const double beside = side * std::min(kBesideSurface, nearest);
+  constexpr double kMost = 0.4;  // voxel that the smoothing may move the surface
+  return {beside, grid.soft > 1 && std::abs(wanted) <= kMost ? wanted : beside};
+}
+
+// Law 1: the planes alone.
+VoxelDepth depth_by_law_1(const PlaneSums& sums, std::size_t v, double level) {
+  const bool in = level >= 0;
+  double depth = in ? kFarAway : -kFarAway;
+  if (sums.weights[v] > 1e-12F) {
+    depth = planes_say(sums, v).depth;
+    // If averaging would move the surface far beyond a voxel, there is a thin wall or gap: keep it.
+    constexpr double kLeast = 0.02, kMuch = 0.4;
+    if (in && depth < -kMuch) depth = kLeast;
+    if (!in && depth > kMuch) depth = -kLeast;
+  }
+  return {depth, depth};
+}
+
+// first: of the brick, counted from the first voxel of the scan. flips: gets the voxels that lie on the
+// other side of the smoothed surface than their own value says.
 void fill_brick(const InsideGrid& grid, const GreyTable& table, SumPlanes sum_planes,
-                const math::Ijk& first, Desk& desk, const Target& to) {
+                const math::Ijk& first, Desk& desk, const Target& to, std::vector<Flip>& flips) {
   bool any_inside = false, any_outside = false;
   const bool labels = grid.grey == nullptr;
   fetch(grid, first, labels ? 0 : kNoBlur, desk, any_inside, any_outside);
@@ -425,34 +531,33 @@ void fill_brick(const InsideGrid& grid, const GreyTable& table, SumPlanes sum_pl
     if (labels) blur(desk);
     find_points(grid, first, desk);
     measured = !desk.points.empty();
-    if (measured) measure(grid.soft, labels, sum_planes, desk);
+    if (measured) measure(grid.soft, labels, grid.law, sum_planes, desk);
   }
   for (int z = 0; z < room.z(); ++z)
     for (int y = 0; y < room.y(); ++y)
       for (int x = 0; x < room.x(); ++x) {
         const int v = x + kBrickEdge * (y + kBrickEdge * z);
         const auto i = static_cast<std::size_t>(v);
-        const bool in =
-            desk.level[static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo))] >= 0;
-        constexpr double kFar = 10;
-        static_assert(volume::field_from_depth(kFar) == volume::kSolid &&
-                      volume::field_from_depth(-kFar) == 0);
-        const bool summed = measured && desk.sums.weights[i] > 1e-12F;
-        if (!summed && !cut) {  // most voxels
-          to.field[v] = in ? volume::kSolid : Field{0};
+        const float level =
+            desk.level[static_cast<std::size_t>(at(x + kHalo, y + kHalo, z + kHalo))];
+        const bool near = measured && (grid.law == 1 ? desk.sums.weights[i] > 1e-12F
+                                                     : desk.sums.nearest[i] < kReach * kReach);
+        if (!near && !cut) {  // most voxels
+          to.field[v] = level >= 0 ? volume::kSolid : Field{0};
           continue;
         }
-        double depth = in ? kFar : -kFar;
-        if (summed) {
-          depth = depth_of(desk.sums, i);
-          // If averaging would move the surface far beyond a voxel, there is a thin wall or gap:
-          // keep it.
-          constexpr double kLeast = 0.02, kMuch = 0.4;
-          if (in && depth < -kMuch) depth = kLeast;
-          if (!in && depth > kMuch) depth = -kLeast;
+        const double far = level >= 0 ? kFarAway : -kFarAway;
+        auto [depth, wanted] = !near           ? VoxelDepth{far, far}
+                               : grid.law == 1 ? depth_by_law_1(desk.sums, i, double{level})
+                                               : depth_of(grid, desk.sums, i, double{level});
+        if (cut) {
+          const double below = depth_below_cut(grid, first + math::Ijk(x, y, z));
+          depth = std::min(depth, below);
+          wanted = std::min(wanted, below);
         }
-        if (cut) depth = std::min(depth, depth_below_cut(grid, first + math::Ijk(x, y, z)));
-        to.field[v] = volume::field_from_depth(depth);
+        to.field[v] = grid.law == 1 ? volume::field_from_depth(depth) : field_beside(depth);
+        if ((wanted < 0) != (depth < 0))
+          flips.push_back({first + grid.margin + math::Ijk(x, y, z), field_beside(wanted)});
         ramps = ramps || (to.field[v] > 0 && to.field[v] < volume::kSolid);
       }
   if (labels)
@@ -576,6 +681,8 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
   const GreyTable table(inside, grey_tissue);
   constexpr std::size_t kPortion = 64;
   const int portions = static_cast<int>((list.size() + kPortion - 1) / kPortion);
+  std::vector<std::vector<Flip>> flips(
+      static_cast<std::size_t>(portions));  // apart, so that their order is always the same
   const bool done = io::in_pieces(portions, progress, "finding the surface", [&](int portion) {
     thread_local std::unique_ptr<Desk> desk = std::make_unique<Desk>();
     const std::size_t from = static_cast<std::size_t>(portion) * kPortion;
@@ -584,17 +691,22 @@ std::unique_ptr<Bone> bone_from_inside(const volume::Grid& grid, volume::TissueT
                            bone->has_intensity() ? bone->build_intensity(list[n]) : nullptr};
       desk->field.fill(0);  // for voxels beyond the grid
       desk->tissue.fill(0);
-      fill_brick(inside, table, sum_planes, bone->brick_ijk(list[n]) - inside.margin, *desk, made);
+      fill_brick(inside, table, sum_planes, bone->brick_ijk(list[n]) - inside.margin, *desk, made,
+                 flips[static_cast<std::size_t>(portion)]);
       // here, so that a uniform brick never touches its reserved memory
       bone->build_brick(list[n], made.field, made.tissue);
     }
   });
   if (!done) return nullptr;
+  std::vector<Flip> all;
+  for (const std::vector<Flip>& some : flips) all.insert(all.end(), some.begin(), some.end());
+  settle(*bone, all);
   bone->pack();
   return bone;
 }
 
-std::vector<double> restore_tissue_volumes(Bone& bone, const std::vector<double>& wanted_voxels) {
+std::vector<double> restore_tissue_volumes(Bone& bone, const std::vector<double>& wanted_voxels,
+                                           int law) {
   // count voxels by tissue and field, in steps of 16: 1/1024 of a voxel of depth
   constexpr int kStep = 16, kBins = 65536 / kStep;
   const std::size_t tissues = bone.tissues().tissues.size();
@@ -640,15 +752,26 @@ std::vector<double> restore_tissue_volumes(Bone& bone, const std::vector<double>
   for (std::size_t t = 1; t < tissues; ++t)
     if (bone.tissues()[static_cast<TissueId>(t)].kind == volume::TissueKind::soft)
       shifts[t] = shifts[largest];
+  // a voxel that the shift takes to the other side goes there only if no part comes or goes
+  std::vector<Flip> flips;
   for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
     if (bone.brick_field(b) == nullptr || bone.is_uniform(b)) continue;
     Field* field = bone.build_field(b);
     const TissueId* tissue = bone.brick_tissue(b);
-    for (int v = 0; v < volume::kBrickVoxels; ++v)
-      if (field[v] > 0 && field[v] < volume::kSolid)
-        field[v] = static_cast<Field>(
-            std::clamp(int{field[v]} + shifts[tissue[v] < tissues ? tissue[v] : 0], 1, 65534));
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      if (field[v] == 0 || field[v] == volume::kSolid) continue;
+      const int shift = shifts[tissue[v] < tissues ? tissue[v] : 0];
+      const auto moved = static_cast<Field>(std::clamp(int{field[v]} + shift, 1, 65534));
+      const bool inside = field[v] >= volume::kIso;
+      if (law == 1 || inside == (moved >= volume::kIso)) {
+        field[v] = moved;
+        continue;
+      }
+      flips.push_back({bone.brick_ijk(b) + math::Ijk(v % 8, v / 8 % 8, v / 64), moved});
+      field[v] = volume::field_from_depth(inside ? kBesideSurface : -kBesideSurface);
+    }
   }
+  settle(bone, flips);
   std::vector<double> moved(tissues);
   for (std::size_t t = 0; t < tissues; ++t) moved[t] = shifts[t] / volume::kFieldPerVoxel;
   return moved;

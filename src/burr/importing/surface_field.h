@@ -35,6 +35,7 @@ struct InsideGrid {
   // Layers of air that the bone's grid has at both ends of each axis around these voxels. There the
   // bone ends in a flat face half a voxel beyond the last voxel; without them the field breaks off.
   math::Ijk margin = {0, 0, 0};
+  int law = 2;  // Recipe::bone_law
   [[nodiscard]] bool inside(std::size_t v) const {
     if (grey != nullptr) return static_cast<float>(grey[v]) >= iso;
     return share != nullptr ? share[v] >= 128 : solid[labels[v]];
@@ -62,6 +63,6 @@ void leave_margins(InsideGrid& inside);
 // Shifts the field of each tissue by a fraction of a voxel until its volume_of is the wanted one
 // [voxel]; wanted < 0: no shift. Returns the shifts [voxel].
 std::vector<double> restore_tissue_volumes(volume::Bone& bone,
-                                           const std::vector<double>& wanted_voxels);
+                                           const std::vector<double>& wanted_voxels, int law = 2);
 
 }  // namespace burr::importing

@@ -9,9 +9,9 @@
 #include "burr/io/write/write_dicom_seg.h"
 #include "burr/io/write/write_mesh.h"
 #include "burr/io/write/write_volume.h"
+#include "burr/surface/enclosed.h"
 #include "burr/surface/mesher.h"
 #include "burr/volume/removed_part.h"
-#include "burr/volume/volume_of.h"
 
 namespace burr::io {
 namespace {
@@ -80,8 +80,9 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
   }
 
   Exported exported{
-      part != nullptr ? volume::removed_volume(with, without) : volume::volume_of(*bone),
+      part != nullptr ? volume::removed_volume(with, without) : surface::enclosed_volume(*bone),
       0,
+      {},
       {},
       {},
       {}};
@@ -99,6 +100,9 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
       mesh = surface::whole_surface(*bone, workers(), progress);
     }
     if (!mesh) return mesh.error();
+    // along the rim of a cut single voxels stand alone: no part that anybody removed
+    if (part != nullptr)
+      *mesh = surface::without_crumbs(*mesh, std::pow(now.grid().voxel, 3), exported.crumbs);
     exported.shells = surface::shells_of(*mesh);
     if (options.largest && exported.shells.parts > 0) {
       *mesh = surface::largest_part(*mesh);

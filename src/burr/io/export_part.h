@@ -35,9 +35,12 @@ struct ExportOptions {
 
 // What was written.
 struct Exported {
-  double volume = 0;          // volume_of() what was written; with `largest`, of the mesh  [m^3]
-  std::size_t triangles = 0;  // 0 for a volume
-  surface::Shells shells;     // of the mesh, also of what `largest` left out
+  // What was written encloses, by its mesh; of a removed or added part without `largest`, by the
+  // ledger.  [m^3]
+  double volume = 0;
+  std::size_t triangles = 0;         // 0 for a volume
+  surface::Shells shells;            // of the mesh, also of what `largest` left out
+  surface::LeftOut crumbs;           // of a removed or added part: below one voxel, not written
   std::vector<SegSegment> segments;  // of .dcm
   std::vector<std::string> notices;  // of .dcm: what the user must know, one sentence each
 };

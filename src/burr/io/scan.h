@@ -35,7 +35,7 @@ enum class Ask : std::uint8_t {
   missing = 1,  // slices that could not be read; --allow-missing answers
   spacing,      // a distance that is not stated, or that no scan has; --spacing-mm answers
   absent,       // slices that something says should be there; --allow-missing answers
-  doubt,        // it contradicts itself, or is no picture in which bone is bright; --as-it-is answers
+  doubt,  // it contradicts itself, or is no picture in which bone is bright; --as-it-is answers
 };
 struct Question {
   Ask ask = Ask::missing;

@@ -458,6 +458,7 @@ constexpr const char* kSessionSchema = R"({
       "read_seconds": {"type": "number"},
       "read_memory_mb": {"type": "number"},
       "reserve_bricks": {"type": "integer", "description": "room for deposits"},
+      "bone_law": {"type": "integer", "description": "by which law bone was made of a scan; absent: 1"},
       "margin": {"type": "boolean", "description": "layers of air where the scan's border cuts bone; absent: false"},
       "check_values": {"type": "boolean", "description": "the header's word on the values is checked, and the level of a scan without HU is estimated; absent: false"},
       "check_scan": {"type": "boolean", "description": "what should be there was compared with what is there, and inverted values were turned; absent: false"}

@@ -146,7 +146,7 @@ bool Recipe::operator==(const Recipe& other) const {
          memory_mb == other.memory_mb && read_seconds == other.read_seconds &&
          read_memory_mb == other.read_memory_mb && reserve_bricks == other.reserve_bricks &&
          margin == other.margin && check_values == other.check_values &&
-         check_scan == other.check_scan && keep == other.keep &&
+         check_scan == other.check_scan && bone_law == other.bone_law && keep == other.keep &&
          drop_islands_mm3 == other.drop_islands_mm3;
 }
 
@@ -175,7 +175,8 @@ std::string to_json(const Recipe& recipe) {
               {"reserve_bricks", recipe.reserve_bricks},
               {"margin", recipe.margin},
               {"check_values", recipe.check_values},
-              {"check_scan", recipe.check_scan}};
+              {"check_scan", recipe.check_scan},
+              {"bone_law", recipe.bone_law}};
   const auto text = [&out](const char* name, const std::string& value) {
     if (!value.empty()) out[name] = value;
   };
@@ -230,6 +231,13 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.yes_or_no("check_values", out.check_values);
   out.check_scan = false;
   fields.yes_or_no("check_scan", out.check_scan);
+  std::size_t law = 1;
+  fields.count("bone_law", law);
+  if (law < 1 || law > static_cast<std::size_t>(Recipe{}.bone_law))
+    return error(fmt::format(
+        "{}: its bone was made by law {}, and this burr knows laws 1 to {}; use a newer burr",
+        where, law, Recipe{}.bone_law));
+  out.bone_law = static_cast<int>(law);
   if (!fields.wrong().empty())
     return error(
         fmt::format("{}: recipe.{} has the wrong type or is out of range; the file is damaged",

@@ -72,6 +72,9 @@ struct Recipe {
   // questioned, and inverted values are turned. false: as burr did before 2026-11-29; a recipe in
   // JSON that does not name it is of that time.
   bool check_scan = true;
+  // By which law bone is made of a scan. 2: docs/bone_of_a_scan.md. 1: as burr did before 2026-11-29,
+  // with bone beside thin walls that no scan has; a recipe in JSON that does not name it is of that time.
+  int bone_law = 2;
 
   bool operator==(const Recipe& other) const;
 };

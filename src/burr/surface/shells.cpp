@@ -140,6 +140,23 @@ std::optional<std::uint32_t> part_around(const Sorted& sorted, Inquiry& one) {
   return smallest;
 }
 
+// The triangles of these shells.
+Mesh shells_from(const Mesh& mesh, const Sorted& sorted, const std::vector<bool>& kept) {
+  Mesh out;
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> moved(mesh.vertices.size(), kNone);
+  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+    const std::uint32_t v = mesh.triangles[n];
+    if (!kept[sorted.of_vertex[v]]) continue;
+    if (moved[v] == kNone) {
+      moved[v] = static_cast<std::uint32_t>(out.vertices.size());
+      out.vertices.push_back(mesh.vertices[v]);
+    }
+    out.triangles.push_back(moved[v]);
+  }
+  return out;
+}
+
 }  // namespace
 
 Shells shells_of(const Mesh& mesh) {
@@ -174,19 +191,21 @@ Mesh largest_part(const Mesh& mesh) {
   kept[*largest] = true;
   for (Inquiry& one : asked) kept[one.shell] = part_around(sorted, one) == largest;
 
-  Mesh out;
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> moved(mesh.vertices.size(), kNone);
-  for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
-    const std::uint32_t v = mesh.triangles[n];
-    if (!kept[sorted.of_vertex[v]]) continue;
-    if (moved[v] == kNone) {
-      moved[v] = static_cast<std::uint32_t>(out.vertices.size());
-      out.vertices.push_back(mesh.vertices[v]);
-    }
-    out.triangles.push_back(moved[v]);
+  return shells_from(mesh, sorted, kept);
+}
+
+Mesh without_crumbs(const Mesh& mesh, double least, LeftOut& left_out) {
+  const Sorted sorted = sort(mesh);
+  std::vector<bool> kept(sorted.shells.size());
+  left_out = {};
+  for (std::size_t n = 0; n < kept.size(); ++n) {
+    const double volume = sorted.shells[n].volume;
+    kept[n] = std::abs(volume) >= least;  // a cavity of a crumb is smaller still
+    if (kept[n]) continue;
+    left_out.volume += volume;
+    if (volume > 0) ++left_out.parts;
   }
-  return out;
+  return left_out.parts > 0 ? shells_from(mesh, sorted, kept) : mesh;
 }
 
 }  // namespace burr::surface

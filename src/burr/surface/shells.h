@@ -22,6 +22,14 @@ struct Shells {
 // mesh: closed.
 [[nodiscard]] Shells shells_of(const Mesh& mesh);
 
+// The mesh without the shells that enclose less than `least`, cavities too. left_out: how many parts
+// that were, and what they enclose.
+struct LeftOut {
+  std::size_t parts = 0;
+  double volume = 0;  // [m^3]
+};
+[[nodiscard]] Mesh without_crumbs(const Mesh& mesh, double least, LeftOut& left_out);
+
 // The part of the largest volume with the cavities inside it, but not the parts inside these.
 [[nodiscard]] Mesh largest_part(const Mesh& mesh);
 

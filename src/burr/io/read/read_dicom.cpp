@@ -373,6 +373,19 @@ Status take_study(const DicomHeader& h, const ReadOptions& options, Scan& scan) 
   return fine();
 }
 
+// Why a folder or an archive holds no scan.
+Error nothing_in(const Found& found, const std::string& file) {
+  if (!found.listed.empty() && found.others == 0)
+    return error(
+        fmt::format("{}: its DICOMDIR lists {} pictures, and none of them is here; copy the "
+                    "whole disc, or give the folder that holds them",
+                    file, found.listed.size()));
+  if (found.others == 1 && !found.last_reason.empty())
+    return error(found.last_trouble, found.last_reason);
+  return error(fmt::format("{}: none of its {} files is a slice of a scan (for example {})", file,
+                           found.others, found.last_reason));
+}
+
 }  // namespace
 
 Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& options,
@@ -380,17 +393,7 @@ Result<Scan> read_dicom(const std::filesystem::path& path, const ReadOptions& op
   const std::string file = short_name(path);
   auto found = find_series(path, progress);
   if (!found) return found.error();
-  if (found->series.empty() && found->segmentations.empty()) {
-    if (!found->listed.empty() && found->others == 0)
-      return error(
-          fmt::format("{}: its DICOMDIR lists {} pictures, and none of them is here; copy the "
-                      "whole disc, or give the folder that holds them",
-                      file, found->listed.size()));
-    if (found->others == 1 && !found->last_reason.empty())
-      return error(found->last_trouble, found->last_reason);
-    return error(fmt::format("{}: none of its {} files is a slice of a scan (for example {})", file,
-                             found->others, found->last_reason));
-  }
+  if (found->series.empty() && found->segmentations.empty()) return nothing_in(*found, file);
   Scan scan;
   scan.format = "DICOM";
   if (found->leading_out > 0)
