@@ -74,13 +74,14 @@ std::int16_t rounded(float value) {
   return static_cast<std::int16_t>(std::lrintf(std::clamp(value, -32768.0F, 32767.0F)));
 }
 
-// The new value at the share t of the way from a to b; `before` and `after` lie around these two. Where a
-// or b is the end of a rise, as in a wall one or two voxels thin, the straight line between them, as
-// marching cubes takes it: a cubic is wider there. Else the cubic, within the range of a and b.
-inline std::int16_t faithful(std::int16_t cubic, int before, int a, int b, int after, float t) {
+// The new value at the share t of the way from a to b; `before` and `after` lie around these two. In a wall
+// one or two voxels thin the straight line between them, as marching cubes takes it: a cubic is wider
+// there. Else the cubic, within the range of a and b; the line would leave terraces.
+inline std::int16_t faithful(std::int16_t cubic, int before, int a, int b, int after, float t,
+                             int level) {
   const int low = a < b ? a : b, high = a < b ? b : a;
-  const bool ends = (a > before) != (b > a) || (b > a) != (after > b);
-  if (ends)
+  const bool thin = (before < level || a < level) && (after < level || b < level);
+  if (thin && high >= level)
     return static_cast<std::int16_t>(
         std::lrintf(static_cast<float>(a) + t * static_cast<float>(b - a)));
   return static_cast<std::int16_t>(cubic < low ? low : cubic > high ? high : int{cubic});
@@ -100,7 +101,7 @@ void make_faithful(const std::array<const std::int16_t*, 4>& rows, float t, std:
     }
     if (highest < level) continue;
     for (std::size_t x = from; x < to; ++x)
-      target[x] = faithful(target[x], rows[0][x], rows[1][x], rows[2][x], rows[3][x], t);
+      target[x] = faithful(target[x], rows[0][x], rows[1][x], rows[2][x], rows[3][x], t, level);
   }
 }
 
@@ -391,7 +392,7 @@ bool resample(Grey& grey, const NewGrid& to, Progress& progress,
             if (to.faithful && tap.below >= 0 &&
                 std::max({target[i], row[tap.below], row[tap.above]}) >= to.level)
               target[i] = faithful(target[i], row[tap.before], row[tap.below], row[tap.above],
-                                   row[tap.after], tap.share);
+                                   row[tap.after], tap.share, to.level);
           }
           continue;
         }
