@@ -220,6 +220,7 @@ bool get_old_recipe(const json& volume, VolumeInfo& info, std::string& missing) 
   recipe.margin = false;
   recipe.check_values = false;
   recipe.check_scan = false;
+  recipe.bone_law = 1;
   info.format = words["format"];
   if (!words["phantom"].empty()) recipe.source = scenario::phantom_source(words["phantom"]);
   if (numbers.contains("voxel_mm")) recipe.voxel_mm = numbers["voxel_mm"];
