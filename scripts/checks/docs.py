@@ -77,7 +77,7 @@ def check_command(name, line, added):
         if not (ROOT / program).exists():
             bad.append(f"{name}: runs {program}, which is not there")
         return
-    if program not in ("burr", "build/release/burr") or len(words) < 2:
+    if program not in ("burr", "build/release/burr") or len(words) < 2 or not BURR.exists():
         return
     command = []
     for word in words[1:4]:
@@ -114,12 +114,10 @@ for name in documents:
             if joined.endswith("\\"):
                 joined = joined[:-1] + " "
                 continue
-            if BURR.exists() or not joined.startswith(("burr", "build/release/burr")):
-                check_command(name, joined, new_options)
+            check_command(name, joined, new_options)
             joined = ""
     for code in re.findall(r"`((?:build/release/)?burr [^`]+|\./(?:run|test)[^`]*)`", text):
-        if BURR.exists():
-            check_command(name, code, new_options)
+        check_command(name, code, new_options)
 
 for line in bad:
     print(line)
