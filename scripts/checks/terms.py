@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that the texts for users in Swedish and German use one term a thing, as docs/glossary.md lists them.
+"""Checks that the texts for users in Swedish and German use one term a thing, as docs/understand/glossary.md lists them.
 
     scripts/checks/terms.py
 
@@ -36,7 +36,7 @@ def texts_of(language):
 
 
 def table():
-    page = (ROOT / "docs" / "glossary.md").read_text()
+    page = (ROOT / "docs" / "understand" / "glossary.md").read_text()
     part = page.split("## Terms in Swedish and German", 1)[1]
     rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in part.splitlines() if line.startswith("|")]
     return rows[2:]
@@ -51,13 +51,13 @@ for language, column in (("sv", 1), ("de", 2)):
     texts = list(texts_of(language))
     for row in rows:
         if not any(found(row[column], text) for _, text in texts):
-            bad.append(f"docs/glossary.md: {row[column]} ({language}) is in no text")
+            bad.append(f"docs/understand/glossary.md: {row[column]} ({language}) is in no text")
         for second in filter(None, (one.strip() for one in row[column + 2].split(","))):
             for place, text in texts:
                 if found(second, text):
                     bad.append(f"{place}: “{second}” should be “{row[column]}” ({row[0]}): {text}")
 if not rows:
-    bad.append("docs/glossary.md: the table of terms is empty")
+    bad.append("docs/understand/glossary.md: the table of terms is empty")
 if bad:
     sys.exit("\n".join(bad))
 print(f"{len(rows)} terms, each with one word in a language")
