@@ -1,4 +1,4 @@
-// Cutting compared with formulas: docs/understand/cutting.md, "Ground truths" (plunge, slot,
+// Cutting compared with formulas: docs/understand/cutting_truths.md, "Ground truths" (plunge, slot,
 // scallop, ledger), with a burr moved by the test, without touch.
 #include "burr/edit/carve.h"
 

@@ -5,8 +5,8 @@
 //     const Allowed allowed = allowed_in(identity.mode, lesson.feedback, is_guided);
 //
 // In no mode is a score shown while somebody works; nothing here could offer one. What a drill shows
-// as well (force, size and speed of the burr) is not in the table. docs/use/window.md explains it
-// to users. Pure functions. Thread: any. Units: SI.
+// as well (force, size and speed of the burr) is not in the table. docs/use/window_steps.md
+// explains it to users. Pure functions. Thread: any. Units: SI.
 #pragma once
 
 #include "burr/record/identity.h"
