@@ -1,4 +1,4 @@
-# Everything comes from Debian 12 or 13; scripts/packages.txt is the list, docs/decisions.md gives the
+# Everything comes from Debian 12 or 13; scripts/packages.txt is the list, docs/develop/decisions gives the
 # reasons.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

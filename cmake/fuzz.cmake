@@ -1,5 +1,5 @@
 # fuzz/x_fuzz.cpp -> fuzz_x: one small program per reader, which searches for inputs that break it;
-# and fuzz_seeds, which makes the first inputs. See docs/fuzzing.md. Only in the preset `asan`,
+# and fuzz_seeds, which makes the first inputs. See docs/develop/fuzzing.md. Only in the preset `asan`,
 # whose library they use.
 if(NOT BURR_SANITIZE MATCHES "address" OR NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   message(FATAL_ERROR "BURR_FUZZ needs clang++ (libFuzzer) and AddressSanitizer: cmake --preset asan")

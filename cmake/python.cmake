@@ -1,4 +1,4 @@
-# The module `burr` for Python (docs/python.md), in build/.../python/burr. Debian's own Python: only that one has Debian's numpy.
+# The module `burr` for Python (docs/use/python.md), in build/.../python/burr. Debian's own Python: only that one has Debian's numpy.
 find_program(BURR_PYTHON_PROGRAM NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(BURR_PYTHON_PROGRAM NAMES python3)
 set(Python_EXECUTABLE ${BURR_PYTHON_PROGRAM})

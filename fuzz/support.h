@@ -1,5 +1,5 @@
 // fuzz/support.h - common to all targets: makes a file of the bytes where a reader needs one, and
-// checks the results. docs/fuzzing.md says how to run and add targets.
+// checks the results. docs/develop/fuzzing.md says how to run and add targets.
 //
 // The readers are called without the fence around them (a fence would only hide a crash). If they
 // are renamed, change the calls here.

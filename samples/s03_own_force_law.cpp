@@ -5,7 +5,7 @@
 // to rest where the two springs balance. Prints that depth and compares it with the equation.
 //
 // A real device gets its force through haptics/safety/limit.h, as in tick/servo.cpp. See
-// docs/how_to_add_a_force_law.md.
+// docs/develop/how_to_add_a_force_law.md.
 #include <burr/base/progress.h>
 #include <burr/device/simulated_hand.h>
 #include <burr/haptics/touch_method.h>

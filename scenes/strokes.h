@@ -3,9 +3,9 @@
 //     for (const Stroke& stroke : strokes(r, h))
 //       ... step to stroke.hand(s), compare with stroke.true_centre(hand)
 //
-// docs/touch.md, "Ground truths". The bones measure a few millimetres and are never smaller than
-// the burr needs. Faces of a box go through voxel centres, because between them a field cannot
-// represent a sharp edge. Frame: world. Units: SI.
+// docs/understand/touch_truths.md, "Ground truths". The bones measure a few millimetres and are
+// never smaller than the burr needs. Faces of a box go through voxel centres, because between them
+// a field cannot represent a sharp edge. Frame: world. Units: SI.
 #pragma once
 
 #include <string>

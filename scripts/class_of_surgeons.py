@@ -20,7 +20,7 @@ import subprocess
 import sys
 import time
 
-# docs/surgeon.md: expert, average, careless
+# docs/understand/surgeon.md: expert, average, careless
 NUMBERS = {"perception_mm": (0.25, 0.45, 1.5), "tremor_mm": (0.05, 0.12, 0.25), "drift_mm": (0.1, 0.25, 0.5),
            "force_noise": (0.15, 0.3, 0.5), "restraint": (0.35, 0.7, 1), "stop_s": (0.1, 0.2, 0.45), "stroke_mm": (7, 5, 3),
            "view": (0.95, 0.8, 0.5), "unfinished": (0.03, 0.1, 0.25)}

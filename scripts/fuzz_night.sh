@@ -59,7 +59,7 @@ cat <<'TEXT'
 
 Something was found. For each: run it again as said above, read the stack, mend the reader so that it
 refuses in one sentence, write the few bytes that matter into a test in tests/ (not the file itself),
-see the test fail without the mend, and run the night again. docs/fuzzing.md says more.
+see the test fail without the mend, and run the night again. docs/develop/fuzzing.md says more.
 TEXT
 echo "found in: ${bad[*]}"
 exit 1

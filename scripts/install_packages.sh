@@ -48,7 +48,7 @@ done <"$here/packages.txt"
 for one in "${elsewhere[@]}"; do echo "burr: left out on $system: $one"; done
 case $release in
   bookworm | trixie) ;;
-  *) echo "burr: this is $system. burr was tested on Debian 12, and in part on Debian 13 (docs/install.md); a package may have another name here" ;;
+  *) echo "burr: this is $system. burr was tested on Debian 12, and in part on Debian 13 (docs/use/install.md); a package may have another name here" ;;
 esac
 
 root=()

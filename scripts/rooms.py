@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints which rooms of src/burr include which, and fails where this differs from docs/architecture.md.
+"""Prints which rooms of src/burr include which, and fails where this differs from docs/develop/architecture.md.
 
     scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr and apps; default: this checkout
     scripts/rooms.py --above ROOM         prints ROOM and the rooms that include it, as far as they have tests (./test --room)
@@ -15,7 +15,7 @@ import re
 import sys
 
 # Besides base and math, which every room may include. A room that is missing here is an error until
-# it is added here, in docs/architecture.md and in docs/decisions.md.
+# it is added here, in docs/develop/architecture.md and in docs/develop/decisions.
 ALLOWED = {
     "base": "",
     "math": "",
@@ -150,7 +150,7 @@ def look(root):
             continue
         room = path.parts[0]
         if room not in ALLOWED:
-            wrong.append(f"{where}: room '{room}' is not listed; see docs/architecture.md, section 2")
+            wrong.append(f"{where}: room '{room}' is not listed; see docs/develop/architecture.md, section 2")
             continue
         for quoted, name in names:
             trouble = third_party(path, name)

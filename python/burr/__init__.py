@@ -1,4 +1,4 @@
-"""burr: touching and cutting bone, from Python. docs/python.md is the guide.
+"""burr: touching and cutting bone, from Python. docs/use/python.md is the guide.
 
     import burr
     scene = burr.Scene("temporal-bone")

@@ -1,4 +1,4 @@
-"""Sessions as demonstrations: what a hand saw and what it did, in the shapes of burr.env (docs/datasets.md).
+"""Sessions as demonstrations: what a hand saw and what it did, in the shapes of burr.env (docs/use/datasets.md).
 
     import burr.dataset
     shown = burr.dataset.from_recordings("sessions/*.mcap")

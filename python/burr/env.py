@@ -1,4 +1,4 @@
-"""An environment for learning, in the shape of Gymnasium's: docs/python.md, "An environment for learning".
+"""An environment for learning, in the shape of Gymnasium's: docs/use/python.md, "An environment for learning".
 
     import burr, burr.env
     environment = burr.env.Env(burr.Scene("tooth"))

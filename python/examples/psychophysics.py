@@ -4,7 +4,7 @@
     psychophysics.py [THRESHOLD] [TRIALS] [RUNS]
 
 The observer presses a burr into a wall in a session, estimates the stiffness from force and depth, and adds noise of its own. Put a
-person and a device in its place for a real experiment: `burr psychophysics` does that (docs/psychophysics.md).
+person and a device in its place for a real experiment: `burr psychophysics` does that (docs/understand/psychophysics.md).
 """
 import math
 import sys

@@ -5,7 +5,7 @@
 
 AUC: the share of pairs of an expert and a careless surgeon in which the expert has more points (0.5: the marks say nothing).
 G: the reliability of the mean mark of a surgeon (Brennan 2001), as `burr study reliability` computes it from the same table.
-The surgeons are scripts (docs/surgeon.md): a mark that tells them apart may still fail on people.
+The surgeons are scripts (docs/understand/surgeon.md): a mark that tells them apart may still fail on people.
 """
 import csv
 import pathlib

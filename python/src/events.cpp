@@ -254,7 +254,7 @@ void Events::add(Wanted wanted, bool keeps_voxels) {
       helper_->steps.emplace_back(which, &step);
     }
     if (!found)
-      raise(list.empty() ? "no step of this case says when it is done (docs/cases.md)"
+      raise(list.empty() ? "no step of this case says when it is done (docs/use/cases.md)"
                          : fmt::format("this case has no step \"{}\" that says when it is done; "
                                        "it has {}",
                                        wanted.name, list));

@@ -65,7 +65,7 @@ py::dict allowed(const Scene& scene, const std::string& mode, std::uint32_t atte
 
 void add_guidance(py::class_<Scene>& scene) {
   scene.def("allowed", &allowed, "mode"_a = "free", py::kw_only(), "attempt"_a = 0,
-            "What the program offers and warns of in this mode (docs/window.md).");
+            "What the program offers and warns of in this mode (docs/use/window_steps.md).");
 }
 
 }  // namespace burr::python

@@ -81,10 +81,11 @@ void PythonLaw::raise_again() {
 Status PythonLaw::fit_for_real_time() const {
   return error(
       Trouble::usage,
-      fmt::format("the law {}: a function of Python takes too long for a session in real time; "
-                  "write it in C (docs/how_to_add_a_force_law.md), or run the session as fast as "
-                  "possible",
-                  about_.name));
+      fmt::format(
+          "the law {}: a function of Python takes too long for a session in real time; "
+          "write it in C (docs/develop/how_to_add_a_force_law.md), or run the session as fast as "
+          "possible",
+          about_.name));
 }
 
 std::shared_ptr<tick::OwnLaw> own_law(const py::object& law, const std::string& settings) {

@@ -1,5 +1,5 @@
-// Experiments on what a person can tell apart (docs/psychophysics.md): what is shown next, and what
-// follows from the answers.
+// Experiments on what a person can tell apart (docs/understand/psychophysics.md): what is shown
+// next, and what follows from the answers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -93,8 +93,8 @@ void add_people(py::module_& module) {
         return self.shown(interval);
       },
       "interval"_a);
-  py::class_<people::Experiment> experiment(module, "Experiment",
-                                            "A two-interval experiment (docs/psychophysics.md).");
+  py::class_<people::Experiment> experiment(
+      module, "Experiment", "A two-interval experiment (docs/understand/psychophysics.md).");
   experiment.def(py::init(&make), "stimulus"_a = "stiffness", py::kw_only(),
                  "standard"_a = py::none(), "smallest"_a = py::none(), "largest"_a = py::none(),
                  "method"_a = "bayes", "rule"_a = "1up2down", "trials"_a = 300, "until"_a = 0.0,

@@ -308,7 +308,7 @@ void add_recording(py::module_& module) {
                 "progress"_a = py::none(), "The bone at t [s]; None: at the end.");
   recording.def("removed_mm3", &Recording::removed_mm3, py::kw_only(), "progress"_a = py::none());
   recording.def("process", &Recording::process, py::kw_only(), "progress"_a = py::none(),
-                "Measures of how the work was done (docs/metrics.md).");
+                "Measures of how the work was done (docs/teach/metrics.md).");
   recording.def("score", &Recording::score, "rubric"_a = "", py::kw_only(),
                 "progress"_a = py::none(), "As `burr score`.");
   recording.def("replay", &Recording::replay, py::kw_only(), "law"_a = "", "law_settings"_a = "",

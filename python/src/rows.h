@@ -1,5 +1,6 @@
 // python/src/rows.h - the rows of ticks as a structured array: names, units and order as in a
-// recording (docs/recording.md), three numbers of a vector in one field, quaternions w x y z.
+// recording (docs/use/recording_fields.md), three numbers of a vector in one field, quaternions w x
+// y z.
 //
 // The layout is fixed; kRowsVersion grows with it.
 #pragma once

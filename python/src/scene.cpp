@@ -204,8 +204,10 @@ sim::SessionSettings settings_of(const Scene& scene) {
   servo.rate_hz = scene.rate_hz;
   const auto touch = haptics::method_named(scene.touch);
   if (!touch)
-    raise(fmt::format("touch \"{}\" is not known; use constraint or shaft, or one of docs/touch.md",
-                      scene.touch));
+    raise(
+        fmt::format("touch \"{}\" is not known; use constraint or shaft, or one of "
+                    "docs/understand/touch_methods.md",
+                    scene.touch));
   servo.touch = *touch;
   const auto law = edit::law_named(scene.removal);
   if (!law)

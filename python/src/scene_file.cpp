@@ -145,7 +145,7 @@ void add_scene_file(py::class_<Scene>& scene) {
       "to_toml",
       [](const Scene& self, const std::string& folder) { return text_of(self, folder, {}); },
       py::kw_only(), "folder"_a = "",
-      "The text of a case (docs/cases.md); paths are named from the folder.");
+      "The text of a case (docs/use/cases.md); paths are named from the folder.");
   scene.def_static("from_toml", &from_toml, "text"_a, py::kw_only(), "name"_a = "scene",
                    "folder"_a = "", "progress"_a = py::none(),
                    "The scene of such a text; paths count from the folder.");

@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""Checks that everything named in the documents exists: links, pictures, files, the program's commands and options.
+"""Checks that everything named in the documents exists: links, pictures, files, the program's commands and options. Checks also that
+
+- a page has at most 3000 words; figures of a day and diaries are in bench/results, which has no such rule;
+- the README.md of a folder of docs/ names every page of the folder, in one screen;
+- a page or folder of docs/ that any file of the project names is there, and so is the section whose name follows in quotes.
 
     scripts/checks/docs.py [BUILD]        BUILD: folder of the program; default build/release
 """
@@ -11,12 +15,18 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BURR = (pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build/release") / "burr"
+MOST_WORDS = 3000
+SCREEN = 40  # lines
 bad = []
 
 
 def tracked(*patterns):
     out = subprocess.run(["git", "-c", "safe.directory=*", "ls-files", "-z", "--", *patterns], cwd=ROOT, check=True, capture_output=True, text=True)
     return [name for name in out.stdout.split("\0") if name and (ROOT / name).is_file()]
+
+
+def headings(page):
+    return [head.strip() for head in re.findall(r"^#+ +(.*)$", page.read_text(), re.M)]
 
 
 helps = {}
@@ -39,9 +49,57 @@ def check_links(name, text):
         if not place.exists():
             bad.append(f"{name}: links to {target}, which is not there")
         elif anchor and place.suffix == ".md":
-            heads = [re.sub(r"[^\w\- ]", "", h).strip().lower().replace(" ", "-") for h in re.findall(r"^#+ +(.*)$", place.read_text(), re.M)]
+            heads = [re.sub(r"[^\w\- ]", "", head).strip().lower().replace(" ", "-") for head in headings(place)]
             if anchor not in heads:
                 bad.append(f"{name}: links to {target}, but {file} has no such heading")
+
+
+def check_size(name, text):
+    words = len(text.split())
+    if words > MOST_WORDS and not name.startswith("bench/results/"):
+        bad.append(f"{name}: {words} words, {MOST_WORDS} at most; divide it by idea, and put figures of a day into bench/results")
+
+
+def index_of(page):
+    """The README.md that must name this page: of its folder, or of the nearest one above that has an index."""
+    folder = page.parent.parent if page.name == "README.md" else page.parent
+    while folder != ROOT / "docs" and not (folder / "README.md").exists():
+        folder = folder.parent
+    return folder / "README.md"
+
+
+def check_indexes(documents):
+    pages = [ROOT / name for name in documents if name.startswith("docs/")]
+    for folder in sorted({page.parent for page in pages if page.parent.parent == ROOT / "docs"}):
+        if not (folder / "README.md").exists():
+            bad.append(f"{folder.relative_to(ROOT)}: has no README.md that names its pages")
+    for page in pages:
+        if page.name == "README.md":
+            lines = page.read_text().count("\n")
+            if lines > SCREEN:
+                bad.append(f"{page.relative_to(ROOT)}: {lines} lines; an index has one screen, {SCREEN} lines")
+            if page.parent == ROOT / "docs":
+                continue
+        index = index_of(page)
+        if not index.exists():
+            continue
+        named = {(index.parent / target).resolve() for target in re.findall(r"\]\(([^)#\s]+)", index.read_text())}
+        if page.resolve() not in named:
+            bad.append(f"{index.relative_to(ROOT)}: does not name {page.relative_to(index.parent)}")
+
+
+def check_names(name, text):
+    """Pages of docs/ that a file names, with the sections in quotes after the name; both may be broken over lines of a comment."""
+    for found in re.finditer(r"(?<![\w/.-])docs/[\w./{}-]*[\w}]", text):
+        path = found[0]
+        if not list(ROOT.glob(re.sub(r"\{\w*\}", "*", path))):
+            bad.append(f"{name}: names {path}, which is not there")
+        elif path.endswith(".md") and "{" not in path:
+            after = re.sub(r"\n\s*(?://|#|\*)?\s*", " ", text[found.end():found.end() + 160])
+            sections = re.match(r',? \\?"([^"\\]+)\\?"(?: and \\?"([^"\\]+)\\?")?', after)
+            for section in filter(None, sections.groups() if sections else ()):
+                if section not in headings(ROOT / path):
+                    bad.append(f"{name}: names \"{section}\" of {path}, which has no such section")
 
 
 def what_it_adds(text):
@@ -77,7 +135,7 @@ def check_command(name, line, added):
         if not (ROOT / program).exists():
             bad.append(f"{name}: runs {program}, which is not there")
         return
-    if program not in ("burr", "build/release/burr") or len(words) < 2:
+    if program not in ("burr", "build/release/burr") or len(words) < 2 or not BURR.exists():
         return
     command = []
     for word in words[1:4]:
@@ -101,6 +159,7 @@ def check_command(name, line, added):
 documents = [n for n in tracked("*.md") if not n.startswith("tests/")]
 for name in documents:
     text, new_files, new_options = what_it_adds((ROOT / name).read_text())
+    check_size(name, (ROOT / name).read_text())
     check_links(name, text)
     check_paths(name, text, new_files)
     inside = False
@@ -114,12 +173,17 @@ for name in documents:
             if joined.endswith("\\"):
                 joined = joined[:-1] + " "
                 continue
-            if BURR.exists() or not joined.startswith(("burr", "build/release/burr")):
-                check_command(name, joined, new_options)
+            check_command(name, joined, new_options)
             joined = ""
     for code in re.findall(r"`((?:build/release/)?burr [^`]+|\./(?:run|test)[^`]*)`", text):
-        if BURR.exists():
-            check_command(name, code, new_options)
+        check_command(name, code, new_options)
+
+check_indexes(documents)
+for name in tracked(".", ":!third_party"):
+    try:
+        check_names(name, (ROOT / name).read_text())
+    except UnicodeDecodeError:
+        continue  # no text
 
 for line in bad:
     print(line)

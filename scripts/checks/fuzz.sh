@@ -42,7 +42,7 @@ else
   # not the thousand lines about progress: only what went wrong, and the input itself
   grep -vE '^(#[0-9]+|INFO:)' "$log" | cut -c1-400 | tail -n 120
   find "$build/found" -name "$name-*" -newer "$log.began" -size -16k -exec sh -c 'echo "-- $1 in base64:"; base64 "$1"' sh {} \;
-  echo "fuzz.sh: $name cannot bear an input; see docs/fuzzing.md, \"Something was found\"" >&2
+  echo "fuzz.sh: $name cannot bear an input; see docs/develop/fuzzing.md, \"Something was found\"" >&2
 fi
 rm -f "$log" "$log.began"
 exit "$code"

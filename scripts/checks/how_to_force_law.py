@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Follows docs/how_to_add_a_force_law.md: writes its new files and applies its patch to a copy of the sources, compiles what they change, and
+"""Follows docs/develop/how_to_add_a_force_law.md: writes its new files and applies its patch to a copy of the sources, compiles what they change, and
 runs the test that the page prints.
 
     scripts/checks/how_to_force_law.py [BUILD]        BUILD: for the flags; default build/release
@@ -14,20 +14,20 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = (pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build/release").resolve()
-PAGE = (ROOT / "docs/how_to_add_a_force_law.md").read_text()
+PAGE = (ROOT / "docs/develop/how_to_add_a_force_law.md").read_text()
 
 
 def run(*words, where):
     done = subprocess.run([str(word) for word in words], cwd=where, capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(f"docs/how_to_add_a_force_law.md: {' '.join(map(str, words))[:200]}\n{done.stdout}{done.stderr}")
+        sys.exit(f"docs/develop/how_to_add_a_force_law.md: {' '.join(map(str, words))[:200]}\n{done.stdout}{done.stderr}")
     return done.stdout
 
 
 files = re.findall(r"`([\w/.]+)`:\n\n```cpp\n(.*?)```", PAGE, re.S)
 patches = re.findall(r"```diff\n(.*?)```", PAGE, re.S)
 if len(files) != 2 or len(patches) != 1:
-    sys.exit(f"docs/how_to_add_a_force_law.md: {len(files)} new files and {len(patches)} patches; 2 and 1 were expected")
+    sys.exit(f"docs/develop/how_to_add_a_force_law.md: {len(files)} new files and {len(patches)} patches; 2 and 1 were expected")
 
 with tempfile.TemporaryDirectory() as folder:
     copy = pathlib.Path(folder)
@@ -35,7 +35,7 @@ with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / part, copy / part)
     for name, text in files:
         if (ROOT / name).exists():
-            sys.exit(f"docs/how_to_add_a_force_law.md: {name} is there already")
+            sys.exit(f"docs/develop/how_to_add_a_force_law.md: {name} is there already")
         (copy / name).parent.mkdir(parents=True, exist_ok=True)
         (copy / name).write_text(text)
     patch = copy / "hardening.patch"

@@ -50,6 +50,6 @@ there portable_bits $paths >"$build/portable_$where.txt"
 cat "$build/portable_$where.txt"
 [ "$(wc -l <"$build/portable_native.txt")" = 11 ] || { echo "three paths, seven tools and the functions were expected"; exit 1; }
 if ! diff "$build/portable_native.txt" "$build/portable_$where.txt"; then
-  echo "portable.$where: other bits than here (<: here, >: there); docs/architecture.md, section 5, says where they may part"
+  echo "portable.$where: other bits than here (<: here, >: there); docs/develop/architecture.md, section 5, says where they may part"
   exit 1
 fi

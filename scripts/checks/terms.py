@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Checks that the texts for users in Swedish and German use one term a thing, as docs/glossary.md lists them.
+"""Checks that the texts for users in Swedish and German use one term a thing, as docs/develop/terms.md lists them.
 
     scripts/checks/terms.py
 
-Reads the table under "Terms in Swedish and German". A second term may not occur at the beginning of a word, in upper or lower case, in
+A second term of its table may not occur at the beginning of a word, in upper or lower case, in
 words/*.toml, or in the Swedish and German texts of cases/*.toml and rubrics/*.toml. Also checks that each term of the table is used.
 """
 import pathlib
@@ -36,9 +36,8 @@ def texts_of(language):
 
 
 def table():
-    page = (ROOT / "docs" / "glossary.md").read_text()
-    part = page.split("## Terms in Swedish and German", 1)[1]
-    rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in part.splitlines() if line.startswith("|")]
+    page = (ROOT / "docs" / "develop" / "terms.md").read_text()
+    rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in page.splitlines() if line.startswith("|")]
     return rows[2:]
 
 
@@ -51,13 +50,13 @@ for language, column in (("sv", 1), ("de", 2)):
     texts = list(texts_of(language))
     for row in rows:
         if not any(found(row[column], text) for _, text in texts):
-            bad.append(f"docs/glossary.md: {row[column]} ({language}) is in no text")
+            bad.append(f"docs/develop/terms.md: {row[column]} ({language}) is in no text")
         for second in filter(None, (one.strip() for one in row[column + 2].split(","))):
             for place, text in texts:
                 if found(second, text):
                     bad.append(f"{place}: “{second}” should be “{row[column]}” ({row[0]}): {text}")
 if not rows:
-    bad.append("docs/glossary.md: the table of terms is empty")
+    bad.append("docs/develop/terms.md: the table of terms is empty")
 if bad:
     sys.exit("\n".join(bad))
 print(f"{len(rows)} terms, each with one word in a language")

@@ -418,7 +418,7 @@ def read_only(place):
 
 
 def engines(folder):
-    """The example files, as docs/clusters.md has them; a score of what was recorded."""
+    """The example files, as docs/use/clusters.md has them; a score of what was recorded."""
     batch = Batch(BURR, folder, SURGEON + "".join(f"s{n},surgeon,tooth,{n},1\n" for n in range(6)))
     env = dict(os.environ) | {"BURR": str(BURR)}
     subprocess.run([ROOT / "samples/clusters/loop.sh", batch.manifest, folder / "loop", "2"], env=env, check=True, stdout=subprocess.DEVNULL)
@@ -442,8 +442,8 @@ def engines(folder):
 
 
 def the_page_as_printed(folder):
-    """The lines of docs/clusters.md, with 3 sessions of a second in place of 300 of a minute; Slurm has a test of its own."""
-    blocks = re.findall(r"^```\n(.*?)^```", (ROOT / "docs/clusters.md").read_text(), re.S | re.M)
+    """The lines of docs/use/clusters.md, with 3 sessions of a second in place of 300 of a minute; Slurm has a test of its own."""
+    blocks = re.findall(r"^```\n(.*?)^```", (ROOT / "docs/use/clusters.md").read_text(), re.S | re.M)
     text = "".join(block for block in blocks if "burr" in block).replace("seq 1000 1299", "seq 1000 1002").replace("$n,60;", "$n,1;")
     lines = [line for line in text.splitlines() if not line.startswith("sbatch") and (shutil.which("parallel") or "parallel.sh" not in line)]
     assert text.count("burr batch") >= 4 and "seq 1000 1002" in text and "$n,1;" in text, text

@@ -176,7 +176,7 @@ TEST_F(DoctorDevices, WhatIsMissingIsSaidWithTheLoadersWordsAndWhatToInstall) {
   EXPECT_EQ(touch.health, Health::absent);
   EXPECT_NE(touch.value.find("No such file"), std::string::npos) << touch.value;
   EXPECT_NE(touch.todo.find("install"), std::string::npos) << touch.todo;
-  EXPECT_NE(touch.todo.find("docs/devices/touch.md"), std::string::npos);
+  EXPECT_NE(touch.todo.find("docs/use/devices/touch.md"), std::string::npos);
   const Finding haply = of("haply");
   EXPECT_EQ(haply.health, Health::absent);
   EXPECT_NE(haply.value.find(":1"), std::string::npos) << haply.value;

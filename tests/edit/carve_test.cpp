@@ -1,5 +1,5 @@
-// Cutting compared with formulas: docs/cutting.md, "Ground truths" (plunge, slot, scallop, ledger),
-// with a burr moved by the test, without touch.
+// Cutting compared with formulas: docs/understand/cutting_truths.md, "Ground truths" (plunge, slot,
+// scallop, ledger), with a burr moved by the test, without touch.
 #include "burr/edit/carve.h"
 
 #include <gtest/gtest.h>

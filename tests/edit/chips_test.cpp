@@ -164,8 +164,8 @@ TEST(Chips, TheRippleIsWhatTheTeethFeelOneAfterTheOther) {
   }
 }
 
-// James et al. 2013 on bovine cortical bone, as used in docs/cutting.md, "Chips": some 0.9 J/mm^3
-// for chips of 10 um and 3 for 2.5 um; speed has no effect.
+// James et al. 2013 on bovine cortical bone, as used in docs/understand/cutting.md, "Chips": some
+// 0.9 J/mm^3 for chips of 10 um and 3 for 2.5 um; speed has no effect.
 TEST(Chips, ThinChipsCostMoreAsMeasuredOnBone) {
   const auto energy = [](double chip) {
     return kForce.chip_tangential +

@@ -1,4 +1,4 @@
-// The energy law of any shape: docs/cutting.md, "Tools of any shape".
+// The energy law of any shape: docs/understand/cutting.md, "Tools of any shape".
 #include "burr/edit/laws/elements.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Cutting with tools of any shape, compared with closed forms: docs/cutting.md, "Tools of any
-// shape". The tool is moved by the test, without touch.
+// Cutting with tools of any shape, compared with closed forms: docs/understand/cutting.md, "Tools
+// of any shape". The tool is moved by the test, without touch.
 #include "burr/edit/tool_body.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The baselines do what their authors wrote, and fail where predicted: docs/touch.md, "The seven
-// methods".
+// The baselines do what their authors wrote, and fail where predicted:
+// docs/understand/touch_methods.md, "The eight methods".
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ TEST(Methods, NoneOfThemTakesMemoryInATick) {
   }
 }
 
-// ---- voxel springs: the closed form of docs/touch.md, "Voxel springs"
+// ---- voxel springs: the closed form of docs/understand/touch_methods.md, "Voxel springs"
 
 double half_space(double a, double r, double h) {  // for 1 N/m per voxel
   return M_PI / (h * h * h) *

@@ -1,4 +1,4 @@
-// The proxy on bones with known answers: docs/touch.md, "Ground truths".
+// The proxy on bones with known answers: docs/understand/touch_truths.md, "Ground truths".
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr double kMm = 1e-3;
 
 struct Scene : test::Scene {
   using test::Scene::Scene;
-  // docs/touch.md, "Ground truths": max(0.02 mm, 0.1 h); 0.15 h at h = 0.5 mm
+  // docs/understand/touch_truths.md, "Ground truths": max(0.02 mm, 0.1 h); 0.15 h at h = 0.5 mm
   [[nodiscard]] double tolerance() const {
     return std::max(0.02 * kMm, (h > 0.4 * kMm ? 0.15 : 0.1) * h);
   }
@@ -332,7 +332,7 @@ TEST(Proxy, FollowsAFastHandThroughFreeAirWithoutForce) {
   }
 }
 
-// ---- friction (Harwin & Melder 2002): docs/touch.md, "Friction"
+// ---- friction (Harwin & Melder 2002): docs/understand/touch.md, "Friction"
 
 class Friction : public testing::Test {
  protected:

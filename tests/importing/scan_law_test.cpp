@@ -1,5 +1,5 @@
-// The law of docs/bone_of_a_scan.md: no bone where nothing is, none lost, the same parts everywhere,
-// the volume of marching cubes. On random shapes and on real scans.
+// The law of docs/understand/bone_of_a_scan.md: no bone where nothing is, none lost, the same parts
+// everywhere, the volume of marching cubes. On random shapes and on real scans.
 #include "burr/importing/scan_law.h"
 
 #include <gtest/gtest.h>

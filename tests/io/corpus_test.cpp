@@ -2,9 +2,9 @@
 // allocates what a false header claims, and none of the files needs the fence, which is for
 // problems that nobody has foreseen. A second reader must see the same in each file.
 //
-// Where our result differs from that of the corpus or of the second reader, docs/corpus.md says
-// why, in tables that are read here. A difference that is not in them makes the test fail, and so
-// does a row for a difference that no longer exists.
+// Where our result differs from that of the corpus or of the second reader, docs/develop/corpus.md
+// says why, in tables that are read here. A difference that is not in them makes the test fail, and
+// so does a row for a difference that no longer exists.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -114,11 +114,11 @@ std::vector<Entry> entries() {
   return all;
 }
 
-// Reads a table of docs/corpus.md under a heading; for each path in the first column its whole row.
-// "| `a`, `b` | ... | why |"
+// Reads a table of docs/develop/corpus.md under a heading; for each path in the first column its
+// whole row. "| `a`, `b` | ... | why |"
 std::map<std::string, std::string> listed_under(const std::string& heading) {
   std::map<std::string, std::string> rows;
-  std::ifstream page(std::filesystem::path(test::source_dir()) / "docs" / "corpus.md");
+  std::ifstream page(std::filesystem::path(test::source_dir()) / "docs" / "develop" / "corpus.md");
   bool there = false;
   for (std::string line; std::getline(page, line);) {
     if (line.rfind('#', 0) == 0) there = line.find(heading) != std::string::npos;
@@ -190,8 +190,9 @@ TEST(Corpus, EveryFileIsReadOrRefusedWithASentence) {
     std::printf("%-9s %-8s %-60s %s\n", differs ? "disagree" : "agree", read ? "loads" : "refuses",
                 path.c_str(), differs && row != listed.end() ? reason(row->second).c_str() : "");
     EXPECT_EQ(differs, row != listed.end())
-        << (differs ? "docs/corpus.md does not say why burr judges otherwise: " + outcome.said
-                    : "docs/corpus.md calls it a difference, and it is none");
+        << (differs
+                ? "docs/develop/corpus.md does not say why burr judges otherwise: " + outcome.said
+                : "docs/develop/corpus.md calls it a difference, and it is none");
   }
   for (const auto& [path, row] : listed) EXPECT_EQ(found.count(path), 1U) << row;
   std::printf("%d loaded, %d refused; %zu judged otherwise; at most %.2f s and %.0f MB\n", loaded,
@@ -332,7 +333,7 @@ TEST_F(CorpusAgainst, ASecondReaderSeesTheSame) {
     if (!what.empty()) found.insert(name);
     std::printf("%-9s %-60s%s\n", what.empty() ? "same" : "different", name.c_str(), what.c_str());
     EXPECT_EQ(what.empty(), row == listed.end())
-        << name << ":" << (what.empty() ? " docs/corpus.md calls it different" : what);
+        << name << ":" << (what.empty() ? " docs/develop/corpus.md calls it different" : what);
   }
   EXPECT_EQ(answered, loaded.size());
   for (const auto& [name, row] : listed) EXPECT_EQ(found.count(name), 1U) << row;

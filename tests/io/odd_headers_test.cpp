@@ -1,5 +1,5 @@
-// False headers: each was found by a fuzzer (docs/fuzzing.md) or while a fuzzer was written, and is
-// made by hand here.
+// False headers: each was found by a fuzzer (docs/develop/fuzzing.md) or while a fuzzer was
+// written, and is made by hand here.
 #include <gtest/gtest.h>
 
 #include <algorithm>

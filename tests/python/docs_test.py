@@ -1,4 +1,4 @@
-"""Every block of Python and of the shell in docs/python.md and docs/datasets.md runs as it is printed, one after the other, in an
+"""Every block of Python and of the shell in docs/use/python.md and docs/use/datasets.md runs as it is printed, one after the other, in an
 empty folder."""
 import os
 import pathlib
@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
-DOCS = pathlib.Path(os.environ["BURR_CHECKOUT"]) / "docs"
+DOCS = pathlib.Path(os.environ["BURR_CHECKOUT"]) / "docs" / "use"
 PROGRAMS = str(pathlib.Path(os.environ["BURR_PROGRAM"]).parent)
 
 

@@ -73,7 +73,7 @@ class Examples(unittest.TestCase):
         outcomes = script("psychophysics")(0.12, 300, 6)
         found = [outcome["threshold"] for outcome in outcomes if outcome["found"]]
         self.assertEqual(len(found), 6)
-        # as docs/psychophysics.md says of such observers: single runs scatter by 14 %, and a 95 % interval holds the truth
+        # as docs/understand/psychophysics.md says of such observers: single runs scatter by 14 %, and a 95 % interval holds the truth
         self.assertAlmostEqual(np.mean(found), 0.12, delta=0.12 * 0.12)
         self.assertGreaterEqual(sum(outcome["low"] <= 0.12 <= outcome["high"] for outcome in outcomes), 5)
         # another truth is found as another number

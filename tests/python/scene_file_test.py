@@ -218,7 +218,7 @@ class SceneFile(unittest.TestCase):
 
     def test_what_a_mode_allows_is_that_of_the_window(self):
         scene = burr.Scene("block", voxel_mm=1, burr_mm=6)
-        known = {mode: scene.allowed(mode) for mode in ("free", "learn", "practise", "exam")}  # the table of docs/window.md
+        known = {mode: scene.allowed(mode) for mode in ("free", "learn", "practise", "exam")}  # the table of docs/use/window_steps.md
         self.assertEqual([one["tone_below_mm"] for one in known.values()], [5, 5, 1, 0])
         self.assertEqual([one["distance"] for one in known.values()], [True, True, False, False])
         self.assertEqual([one["injury"] for one in known.values()], ["sound", "stop", "sound", "silent"])

@@ -43,7 +43,8 @@ TEST(Thread, WhatItGotIsWhatTheKernelSays) {
   if (grant.fifo && grant.locked) {
     EXPECT_EQ(grant.sentence, "servo: SCHED_FIFO 70, memory locked");
   } else {
-    EXPECT_NE(grant.sentence.find("docs/realtime.md"), std::string::npos) << grant.sentence;
+    EXPECT_NE(grant.sentence.find("docs/understand/realtime.md"), std::string::npos)
+        << grant.sentence;
   }
 }
 

@@ -7,7 +7,7 @@ What must hold after each attack: the server lives and answers its owner; nothin
 the token; no answer holds a line of a file from elsewhere, or a person's name; every answer forbids what it should
 (Content-Security-Policy) and permits no other page (CORS). At the end: the memory has not grown, no connection and no
 file is left open, the store is unchanged but for the audit. Prints counts as JSON; ends with 1 where something did not
-hold. Needs Python alone. docs/security.md says what is defended, and how long this was run.
+hold. Needs Python alone. docs/teach/security.md says what is defended, and how long this was run.
 """
 import argparse
 import collections

@@ -4,7 +4,7 @@
     tests/school/forget_test.py BURR
 
 Name, cohort, sessions with recordings and reports, what waits, damaged files, statements that were sent, sent without an
-answer, or wait, exports. What the user exported stays, as docs/school.md says; nothing else may hold the name, the
+answer, or wait, exports. What the user exported stays, as docs/teach/school.md says; nothing else may hold the name, the
 pseudonym or the id of a session, also within zip files. A second learner keeps all.
 """
 import json

@@ -7,7 +7,7 @@
 
 Faults are taken one by one by requests that write statements: {"status": S, "retry_after": T, "body": B} instead of doing it;
 {"cut": "before"} closes the connection without doing it, "after" does it and then closes, "within" closes in the middle of
-the answer; {"slow": S} waits first. docs/xapi.md says how many tests of adlnet's suite it passes.
+the answer; {"slow": S} waits first. docs/teach/xapi.md says how many tests of adlnet's suite it passes.
 """
 import argparse
 import base64

@@ -153,7 +153,7 @@ def what_a_session_says(centre):
 
 
 def profile_names_all(centre):
-    profile = json.loads((pathlib.Path(__file__).resolve().parents[2] / "docs/xapi-profile.jsonld").read_text())
+    profile = json.loads((pathlib.Path(__file__).resolve().parents[2] / "docs/teach/xapi-profile.jsonld").read_text())
     same(profile["id"], PROFILE, "profile")
     centre.take_in(session("heron-4821", "a"))
     used = set(re.findall(rf'"({PROFILE}/[a-z-]+)":', " ".join(row[1] for row in centre.rows())))

@@ -120,7 +120,8 @@ TEST(Session, TheSameSessionGivesTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-// A hand that presses straight down with a constant force: the plunge of docs/cutting.md.
+// A hand that presses straight down with a constant force: the plunge of
+// docs/understand/cutting.md.
 struct Plunge {
   double removed = 0, depth = 0, mean_force = 0;
 };

@@ -154,7 +154,7 @@ TEST(Surgeon, RefusesACaseWithNothingToDo) {
   ASSERT_FALSE(made.ok());
   EXPECT_EQ(made.error().text,
             "the case has no step with a region, so a scripted surgeon has nothing to do; add "
-            "[[step]] with region (docs/cases.md)");
+            "[[step]] with region (docs/use/cases.md)");
 }
 
 }  // namespace

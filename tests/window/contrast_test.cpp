@@ -91,7 +91,8 @@ TEST_F(Window, LettersOnButtonsFieldsAndListsCanBeReadAndAreLargeEnough) {
                for (const ImGuiCol mark :
                     {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_NavHighlight})
                  EXPECT_GE(contrast(ink_of(mark), page), kLargeContrast);
-               // docs/window.md: no letters below 12.5 pixels in a window of 1240 x 620 or more
+               // docs/use/window_settings.md: no letters below 12.5 pixels in a window of 1240 x
+               // 620 or more
                using Letter = Ui::Letter;
                for (const Letter letter :
                     {Letter::small, Letter::body, Letter::strong, Letter::large, Letter::title})

@@ -36,8 +36,8 @@ bad = []
 
 
 def policy():
-    """The header that docs/browser.md names."""
-    return re.search(r"Content-Security-Policy: (.+)", (ROOT / "docs/browser.md").read_text())[1]
+    """The header that docs/use/browser.md names."""
+    return re.search(r"Content-Security-Policy: (.+)", (ROOT / "docs/use/browser.md").read_text())[1]
 
 
 def check(good, text):

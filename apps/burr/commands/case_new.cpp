@@ -46,7 +46,7 @@ std::optional<std::pair<std::string, math::Vec3>> landmark_of(std::string_view a
 
 std::string head_of(const std::string& source, const CaseAnswers& answers) {
   std::string text =
-      "# A case of burr, begun by `burr case new`. docs/cases.md lists all fields.\n"
+      "# A case of burr, begun by `burr case new`. docs/use/cases.md lists all fields.\n"
       "# Lines with MISSING are what only a person who knows this bone can say.\n"
       "format = 2\n";
   if (answers.title.empty()) text += "# MISSING: one line that says what is to be done\n";

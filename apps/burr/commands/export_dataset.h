@@ -1,5 +1,5 @@
 // commands/export_dataset.h - `burr export --part dataset`: a recording as HDF5, for programs that
-// learn from sessions (docs/datasets.md).
+// learn from sessions (docs/use/datasets.md).
 #pragma once
 
 #include <cstdint>

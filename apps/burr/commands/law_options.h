@@ -1,5 +1,5 @@
 // apps/burr/commands/law_options.h - the options that put a law of one's own into a session
-// (docs/how_to_add_a_force_law.md).
+// (docs/develop/how_to_add_a_force_law.md).
 #pragma once
 
 #include <CLI/CLI.hpp>

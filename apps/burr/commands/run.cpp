@@ -482,9 +482,10 @@ void add(CLI::App& app, Todo& todo) {
       ->excludes("--headless");
   add_identity_options(*command, options->work.identity);
   command
-      ->add_option("--store", options->store,
-                   "the store of learners for sessions with --learner (docs/school.md; default: "
-                   "BURR_STORE, or the one in burr's data folder if it is there)")
+      ->add_option(
+          "--store", options->store,
+          "the store of learners for sessions with --learner (docs/teach/school.md; default: "
+          "BURR_STORE, or the one in burr's data folder if it is there)")
       ->excludes("--headless");
   auto* live = command->add_option("--live", options->live,
                                    "https://SERVER:PORT of a `burr serve --live`: the instructor "
@@ -502,7 +503,7 @@ void add(CLI::App& app, Todo& todo) {
   live->needs("--live-token-file");
   command->add_option("--cmi5", options->cmi5,
                       "the address with which a learning management system starts a unit "
-                      "(cmi5), in quotes; docs/xapi.md lists what burr reports to it");
+                      "(cmi5), in quotes; docs/teach/xapi.md lists what burr reports to it");
   add_bone_option(*command, options->work.bone);
   add_volume_options(*command, options->work.volume);
   command->callback([options, touch, &todo] {

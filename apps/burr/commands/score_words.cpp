@@ -125,7 +125,7 @@ std::string explanation(const Item& item, const Outcome& outcome, double rate_hz
   if (item.gate) text += ", a gate";
   if (outcome.borderline) text += ", borderline: a person should look";
   if (!outcome.reason.empty()) text += "\n  why: " + base::printable(outcome.reason, kText);
-  text += fmt::format("\n  measure: {} ({}; docs/metrics.md)", item.how->name,
+  text += fmt::format("\n  measure: {} ({}; docs/teach/metrics.md)", item.how->name,
                       scoring::word_of(item.part));
   if (!item.structure.empty()) text += "\n  structure: " + base::printable(item.structure);
   if (!item.region.empty()) text += "\n  region: " + base::printable(item.region);

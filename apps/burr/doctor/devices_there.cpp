@@ -50,7 +50,7 @@ std::string of_device(const std::string& kind) {
 void split(const std::string& sentence, Finding& finding) {
   const std::size_t cut = sentence.find("; ");
   finding.value = sentence.substr(0, cut);
-  finding.todo = cut == std::string::npos ? "see docs/devices.md" : sentence.substr(cut + 2);
+  finding.todo = cut == std::string::npos ? "see docs/use/devices.md" : sentence.substr(cut + 2);
 }
 
 }  // namespace
@@ -60,14 +60,15 @@ std::vector<Finding> look_at_devices(const System& system) {
   for (const workshop::HandKind& kind : workshop::hand_kinds()) {
     Finding finding{kGroup, kind.name, Health::absent, "", ""};
     const std::string name = kind.name;
-    const std::string if_owned = fmt::format(", if you have one (docs/devices/{}.md)", kind.page);
+    const std::string if_owned =
+        fmt::format(", if you have one (docs/use/devices/{}.md)", kind.page);
     const ProcessResult library =
         run_in_process([&name] { return of_library(name); }, system.maker_timeout);
     if (!library.ended) {
       finding.health = Health::trouble;
       finding.value = "its library was loaded, then " + library.words;
       finding.todo =
-          fmt::format("install it anew as its maker says (docs/devices/{}.md)", kind.page);
+          fmt::format("install it anew as its maker says (docs/use/devices/{}.md)", kind.page);
     } else if (library.words.starts_with('-')) {
       split(library.words.substr(1), finding);
       finding.todo += if_owned;
@@ -78,7 +79,7 @@ std::vector<Finding> look_at_devices(const System& system) {
         finding.health = Health::trouble;
         finding.value = "it was opened, then " + there.words;
         finding.todo =
-            fmt::format("try the maker's own test program; docs/devices/{}.md", kind.page);
+            fmt::format("try the maker's own test program; docs/use/devices/{}.md", kind.page);
       } else if (there.words.starts_with('+')) {
         finding.health = Health::good;
         finding.value = there.words.substr(1);

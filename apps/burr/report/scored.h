@@ -39,8 +39,8 @@ struct Judged {
 // rubric: a name or a file; empty: the built-in one of the recording's case.
 [[nodiscard]] Result<Judged> judged_by(const std::string& recording, const std::string& rubric);
 
-// Pieces that were moved (docs/pieces.md) are facts beside the items. The items look at the bone with
-// these pieces put back where they came free: they judge the cut, not the move.
+// Pieces that were moved (docs/use/pieces.md) are facts beside the items. The items look at the
+// bone with these pieces put back where they came free: they judge the cut, not the move.
 struct Scored {
   Judged judged;
   std::unique_ptr<volume::Bone> before, after;  // after: as it lies

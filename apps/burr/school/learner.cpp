@@ -212,7 +212,7 @@ Status list_sessions(const Options& options, school::Store& store) {
   Json proposed = Json::array();
   const std::int64_t today = school::day_here(school::now_ms());
   if (!practice->empty())
-    fmt::print("\nwhen to practise again, a proposal by a fixed rule (docs/school.md):\n");
+    fmt::print("\nwhen to practise again, a proposal by a fixed rule (docs/teach/school.md):\n");
   for (const school::LearnerPractice& one : *practice)
     for (const school::CasePractice& of : one.cases) {
       fmt::print("  {}\n", practice_line(of, today));

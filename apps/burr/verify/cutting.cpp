@@ -15,7 +15,8 @@ namespace {
 using math::Vec3;
 
 constexpr double kMm = 1e-3, kR = 2 * kMm;
-// docs/cutting.md, "Ground truths": 4 mm^3/s per newton, a hand of 0.2 N/mm, for 1.5 s
+// docs/understand/cutting_truths.md, "Ground truths": 4 mm^3/s per newton, a hand of 0.2 N/mm, for
+// 1.5 s
 constexpr device::ArmSettings kSoft{.mass = 0.1, .damping = 10, .stiffness = 200};
 constexpr double kSoftEnergy = 0.838e9, kSoftTarget = 4e-3, kSoftSeconds = 1.5;
 constexpr device::ArmSettings kFirm{.mass = 0.1, .damping = 20, .stiffness = 500};

@@ -135,7 +135,8 @@ void truths(const Verify& verify, VerifyReport::Part& part) {
           const std::string which =
               fmt::format("{}.{}.h{}.r{}", stroke.name, haptics::name(method), h_mm, r_h);
           if (method == Method::constraint) {
-            // 0.02 mm or a tenth of a voxel, half a degree (docs/touch.md, "Ground truths")
+            // 0.02 mm or a tenth of a voxel, half a degree (docs/understand/touch_truths.md,
+            // "Ground truths")
             const double exact = std::max(0.02 * kMm, 0.1 * h) * stroke.radius_error_factor;
             const double allowed = stroke.sharp ? std::max(exact, kEdge * h) : exact;
             const double turned = std::atan2(kEdge * h, deep) * 180 / M_PI;

@@ -175,7 +175,7 @@ CLI::App* add_verify_law(CLI::App& verify, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = verify.add_subcommand("law",
                                         "try a compiled force law of your own, in a process of its "
-                                        "own (docs/how_to_add_a_force_law.md)");
+                                        "own (docs/develop/how_to_add_a_force_law.md)");
   command->add_option("file", options->trial.file, "FILE.so")->required();
   command->add_option("--law-settings", options->trial.settings,
                       "FILE: the text that this law gets");

@@ -65,7 +65,7 @@ Pressed press(tick::ServoSettings servo, double newton) {
 }
 
 // James et al. 2013: bovine cortical bone, resultants of 8 to 11 N on a kerf of 0.7 mm; as specific
-// energies in docs/cutting.md, "Chips".
+// energies in docs/understand/cutting.md, "Chips".
 void chips(VerifyReport::Part& part) {
   const volume::CuttingForce force = volume::Tissue{}.force;
   const auto energy = [&](double chip) {

@@ -86,7 +86,8 @@ class VerifyReport {
   // The check on one line, as on the terminal.
   [[nodiscard]] static std::string line(const Check& check);
   [[nodiscard]] std::string json() const;
-  // The text of docs/validation.md; nothing in it depends on the time of day or the computer.
+  // The text of bench/results/validation.md; nothing in it depends on the time of day or the
+  // computer.
   [[nodiscard]] std::string markdown() const;
   // Writes FOLDER/<series>.csv, <part>_plot<n>_<axes>.csv, report.html, validation.md, verify.json.
   // html: the content of report.html, from page(*this).

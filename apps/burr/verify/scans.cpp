@@ -1,5 +1,6 @@
-// burr verify scans - is the bone of a scan the scan's bone? The law of docs/bone_of_a_scan.md, asked
-// of random thin, small and turned shapes, and of real scans.
+// burr verify scans - is the bone of a scan the scan's bone? The law of
+// docs/understand/bone_of_a_scan.md, asked of random thin, small and turned shapes, and of real
+// scans.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // burr verify shapes - the proxy of six unknowns on bones for which force, torque and place of a tool
-// are known in closed form. Formulas and bars: docs/touch.md, "Six unknowns".
+// are known in closed form. Formulas and bars: docs/understand/touch_tools.md, "Six unknowns".
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -84,8 +84,9 @@ void borders(const Verify& verify, VerifyReport::Part& part) {
   }
 }
 
-// Devices with the stiffness that a public library allows them (docs/safety.md, "Devices and
-// hands"); masses of 0.1 kg and b = 0.5 N s/m where no figure is known.
+// Devices with the stiffness that a public library allows them
+// (docs/understand/safety_stability.md, "Devices and hands"); masses of 0.1 kg and b = 0.5 N s/m
+// where no figure is known.
 void devices(VerifyReport::Part& part) {
   struct Device {
     const char* name;

@@ -24,7 +24,7 @@ constexpr double kVoxel = 0.25 * kMm, kRadius = 1.5 * kMm;
 
 struct Case {
   const char* name;
-  double stiffness, friction;  // docs/touch.md, "The thesis' four cases"
+  double stiffness, friction;  // docs/understand/touch_methods.md, "The thesis' four cases"
 };
 constexpr std::array<Case, 4> kCases = {{{"1 stiff", 1000, 0.3},
                                          {"2 soft", 200, 0.3},

@@ -112,8 +112,9 @@ CLI::App* add_verify(CLI::App& app,
   command->add_option(
       "--seed", options->seed,
       "seed of what is drawn at random in safety and bones (default: the usual one)");
-  command->add_option("--data", options->data,
-                      "DIR: folder of the real bones (docs/validation.md); default: none");
+  command->add_option(
+      "--data", options->data,
+      "DIR: folder of the real bones (docs/understand/validation.md); default: none");
   command->add_option(
       "--out", options->out,
       "DIR: write report.html, every series as CSV, verify.json and validation.md there");

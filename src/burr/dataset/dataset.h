@@ -1,5 +1,5 @@
 // dataset/dataset.h - a recording as a data set for other programs: HDF5 in the layout of FIVRS
-// (docs/datasets.md).
+// (docs/use/datasets.md).
 //
 //     auto made = dataset::write(player, *bone, "s.hdf5", {}, progress);
 //

@@ -4,8 +4,8 @@
 //     target(t) o--/\/\/--[ mass ]<-- force from the bone
 //
 // Measured values for a stylus held in the fingers: 0.03-0.1 kg, 2-5 N s/m, 100-300 N/m
-// (docs/safety.md, "Devices and hands"); the default is a firm grip. stiffness = infinity is a
-// rigid hand: it follows the path, whatever pushes it.
+// (docs/understand/safety_stability.md, "Devices and hands"); the default is a firm grip. stiffness
+// = infinity is a rigid hand: it follows the path, whatever pushes it.
 // Thread: state(), write_force() servo; scale_force() any. Frame: world. Units: SI.
 #pragma once
 

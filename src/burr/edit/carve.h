@@ -5,12 +5,12 @@
 //     field -= share * excess;   debt -= really removed
 //
 // Anti-aliased (with the ball's own ramp, not whole voxels), exact in volume (integers),
-// independent of order, of tick rate and, to second order, of the voxel size (docs/cutting.md,
-// "Carving"; volume by volume_of.h). The ball is moved forward a little along the push and is
-// larger than the burr by a small, adaptive margin; without it a burr gets stuck in its own hole.
-// Both are lengths of the tool: as a share of a voxel they would cut a coarse bone deeper than a
-// fine one (an error of first order in h). Debt that is older than a few ticks is written off as
-// "not cut"; otherwise a stalled burr would save it up.
+// independent of order, of tick rate and, to second order, of the voxel size
+// (docs/understand/cutting.md, "Carving"; volume by volume_of.h). The ball is moved forward a
+// little along the push and is larger than the burr by a small, adaptive margin; without it a burr
+// gets stuck in its own hole. Both are lengths of the tool: as a share of a voxel they would cut a
+// coarse bone deeper than a fine one (an error of first order in h). Debt that is older than a few
+// ticks is written off as "not cut"; otherwise a stalled burr would save it up.
 //
 // With a mirror the image of the ball takes, in every tick, the same share of the material it
 // stands in. On symmetric bone both sides are then equal to the bit; on other bone the image

@@ -7,8 +7,8 @@
 //     turning   r / full, >= least     r: distance to the tool's axis; a point on the axis does not
 //                                      move, so the pole of a drill cuts nothing by itself
 //
-// The weight is the speed of that element over the fastest one's (docs/cutting.md, "Tools of any
-// shape"). Parts that rub are not in this list.
+// The weight is the speed of that element over the fastest one's (docs/understand/cutting.md,
+// "Tools of any shape"). Parts that rub are not in this list.
 //
 // Thread: any. Frame: p_grid [voxel]. Memory: none.
 #pragma once

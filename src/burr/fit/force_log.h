@@ -1,5 +1,5 @@
 // fit/force_log.h - measurements made while milling, one row per moment: forces, speed, removal.
-// From CSV (docs/fit.md) or from burr's recordings (fit/recorded_log.h).
+// From CSV (docs/use/fit.md) or from burr's recordings (fit/recorded_log.h).
 //
 //     Result<ForceLog> log = fit::read_force_log("bench.csv");
 //

@@ -4,10 +4,10 @@
 //     p = argmin |p - wanted|^2   subject to   n_j . p >= -gap_j   for all candidates
 //
 // Exact dual active set: add the most violated plane, project in closed form onto the at most four
-// planes of the set, keep the at most three that press, repeat (docs/touch.md, "The proxy";
-// Goldfarb & Idnani 1983 in three unknowns). With gaps >= 0, p = 0 is always allowed, so it cannot
-// fail. With gaps < 0 (bone that grew under the burr pushes it out) it may fail; then `solved` is
-// false and p is zero.
+// planes of the set, keep the at most three that press, repeat (docs/understand/touch.md, "The
+// proxy"; Goldfarb & Idnani 1983 in three unknowns). With gaps >= 0, p = 0 is always allowed, so it
+// cannot fail. With gaps < 0 (bone that grew under the burr pushes it out) it may fail; then
+// `solved` is false and p is zero.
 #pragma once
 
 #include "burr/haptics/scan_kernel.h"

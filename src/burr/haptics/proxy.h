@@ -7,11 +7,11 @@
 // times per tick: collect the discs that the next short move could reach, find the smallest
 // correction of that move that keeps the ball off all of them (least_move.h), move. The distance to
 // a disc is a convex function, so a straight move between two free places is free: the burr cannot
-// fall through, at any speed. Mathematics: docs/touch.md, "The proxy" and "Friction" (Harwin &
-// Melder 2002).
+// fall through, at any speed. Mathematics: docs/understand/touch.md, "The proxy" and "Friction"
+// (Harwin & Melder 2002).
 //
 // Thread: servo. Frame: world in arguments and results, p_grid inside. Memory: allocates nothing
-// after construction. Cost: docs/realtime.md.
+// after construction. Cost: docs/understand/realtime.md.
 #pragma once
 
 #include <memory>

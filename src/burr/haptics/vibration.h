@@ -4,7 +4,7 @@
 //     white noise --[ resonator at f_v, Q ]-- e, variance 1 --[ clamp 3 ]-- A e t_hat
 //
 // A burr at 80 000 rpm has a run-out frequency of 1333 Hz and a tooth frequency of 10 kHz: above
-// the 500 Hz that a 1 kHz loop can carry. A band of noise replaces them (docs/touch.md,
+// the 500 Hz that a 1 kHz loop can carry. A band of noise replaces them (docs/understand/touch.md,
 // "Vibration"):
 //
 //     f_v = f_r / m, limited to 60..250 Hz, where skin is most sensitive; m is the smallest whole

@@ -21,7 +21,7 @@ using io::ValueSample;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // 300 HU = 40 + 0.25 * (40 + 1000). Where noise or fat make the group of soft tissue broad, a share of
-// its width at half height is added; 0.24 and 0.18 fit ten real scans best (docs/own_ct.md).
+// its width at half height is added; 0.24 and 0.18 fit ten real scans best (docs/use/own_ct.md).
 constexpr double kAboveSoft = 0.24, kOfWidth = 0.18;
 // Groups within this share of the range above the lowest are air too: the table's foam, lung, what
 // lies outside the body.

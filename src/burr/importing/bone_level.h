@@ -5,7 +5,7 @@
 // of three classes (Otsu 1979), and whether the values at the level lie on edges and not within a
 // material.
 // A scan that is stretched or shifted has the same level, stretched and shifted.
-// Units: those of the scan. Thread: any. docs/own_ct.md has what it measured on real scans.
+// Units: those of the scan. Thread: any. docs/use/own_ct.md has what it measured on real scans.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// importing/label_codes.h - what a table of labels (docs/labels.md) says that the structures are, in codes of SNOMED CT, for
-// a DICOM segmentation. burr knows no codes of its own.
+// importing/label_codes.h - what a table of labels (docs/use/labels.md) says that the structures
+// are, in codes of SNOMED CT, for a DICOM segmentation. burr knows no codes of its own.
 //
 // Thread: any. Errors: what is wrong in the table, one sentence.
 #pragma once

@@ -147,7 +147,7 @@ class Reader {
         return fail(fmt::format("{} is not a known field; only [[material]] is allowed",
                                 base::printable(key.str())));
     const toml::array* list = table["material"].as_array();
-    if (list == nullptr) return fail("there is no [[material]]; see docs/materials.md");
+    if (list == nullptr) return fail("there is no [[material]]; see docs/use/materials.md");
     std::vector<std::string> named;
     for (const toml::node& node : *list) {
       const toml::table* entry = node.as_table();

@@ -1,5 +1,5 @@
 // importing/materials.h - the physical constants of tissues, with their range, their source, and
-// whether they were measured. File format: docs/materials.md.
+// whether they were measured. File format: docs/use/materials.md.
 //
 //     Result<Materials> materials = read_materials("mine.toml");  // added to the built-in ones
 //     materials->apply_material(tissue);                          // finds the material by its name

@@ -1,5 +1,5 @@
 // importing/scan_law.h - compares a bone with the grey scan that it was made of, by the law that an
-// import keeps (docs/bone_of_a_scan.md):
+// import keeps (docs/understand/bone_of_a_scan.md):
 //
 //   1. no bone and no ramp where no voxel of the scan reaches the level;
 //   2. no bone of the scan lost;

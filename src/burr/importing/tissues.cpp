@@ -56,7 +56,7 @@ Status read_table(const std::string& text, const std::string& file,
   if (!read) return read.error();
   const auto* list = (*read)["label"].as_array();
   if (list == nullptr)
-    return error(fmt::format("{}: there is no [[label]]; see docs/labels.md", file));
+    return error(fmt::format("{}: there is no [[label]]; see docs/use/labels.md", file));
   for (const auto& node : *list) {
     const auto* entry = node.as_table();
     if (entry == nullptr)

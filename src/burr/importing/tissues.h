@@ -1,6 +1,6 @@
 // importing/tissues.h - decides which labels are bone, which are soft and which are air: by name,
-// or by a TOML table (docs/labels.md). The constants of each: importing/materials.h. Internal to
-// importing.
+// or by a TOML table (docs/use/labels.md). The constants of each: importing/materials.h. Internal
+// to importing.
 //
 // Thread: any. Errors: what is wrong in the table, one sentence.
 #pragma once
@@ -29,8 +29,8 @@ struct LabelTissues {
   std::vector<std::string> notices;
 };
 
-// present: which values occur in the map. table_path: a table (docs/labels.md), or a list of ITK-SNAP
-// or FreeSurfer that names the labels; may be empty.
+// present: which values occur in the map. table_path: a table (docs/use/labels.md), or a list of
+// ITK-SNAP or FreeSurfer that names the labels; may be empty.
 [[nodiscard]] Result<LabelTissues> label_tissues(const io::Scan& scan,
                                                  const std::array<bool, 256>& present,
                                                  const std::string& table_path,

@@ -6,10 +6,11 @@
 //     launch->end(seconds, finished, folder);             // "completed" where it was finished, then "terminated"
 //     lrs::tell_waiting(folder);                          // later: what could not be said then
 //
-// Neither "passed" nor "failed" is sent: a person decides that later (docs/xapi.md). The token is never printed. It is kept
-// in memory; it goes into a file, for this user alone, only where the system does not answer at the end: cmi5 lets it be
-// used until the session is terminated or abandoned, and its best practice 17 keeps it where a program that ends does not
-// lose it. Thread: one. Cost: waits for the network, before and after a session and never in it.
+// Neither "passed" nor "failed" is sent: a person decides that later (docs/teach/xapi.md). The
+// token is never printed. It is kept in memory; it goes into a file, for this user alone, only
+// where the system does not answer at the end: cmi5 lets it be used until the session is terminated
+// or abandoned, and its best practice 17 keeps it where a program that ends does not lose it.
+// Thread: one. Cost: waits for the network, before and after a session and never in it.
 #pragma once
 
 #include <cstddef>

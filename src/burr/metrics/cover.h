@@ -16,7 +16,7 @@
 //
 // One pass: all measures of one structure and region (identified, skeletonised, intact plate) read
 // the same Cover. The result does not depend on the number of threads.
-// Frame: world. Units: m. Thread: uses `threads` of its own. Cost: docs/metrics.md.
+// Frame: world. Units: m. Thread: uses `threads` of its own. Cost: docs/teach/metrics.md.
 #pragma once
 
 #include <cstddef>

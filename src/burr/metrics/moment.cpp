@@ -19,7 +19,7 @@ bool usable(const tick::TickRow& row) {
 
 // The session began with the method of touch that feels the shaft.
 bool feels_shaft(const record::SessionInfo& info) {
-  constexpr double kShaftMethod = 7;  // of docs/recording.md
+  constexpr double kShaftMethod = 7;  // of docs/use/recording_fields.md
   const auto found = info.numbers.find("touch_method");
   return found != info.numbers.end() && found->second == kShaftMethod;
 }

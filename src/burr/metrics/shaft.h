@@ -1,7 +1,7 @@
 // metrics/shaft.h - did the shaft of the tool rest on bone.
 //
 // Felt: the session's own touch said so, tick by tick (`--touch shaft`, or a tool of the rack; flag 18 of
-// docs/touch.md). A contact ends when the shaft has been free for a tick.
+// docs/understand/touch_tools.md). A contact ends when the shaft has been free for a tick.
 //
 // Drawn: in every other session the shaft is a picture that goes through bone. ten times a second 64
 // points on it (8 places along it, 8 around each, up to 26 mm from the head, where the handpiece

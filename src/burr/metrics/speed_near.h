@@ -1,5 +1,5 @@
 // metrics/speed_near.h - how fast the burr moves while it cuts, by how near it is to the structures that
-// matter: M10 of docs/metrics.md.
+// matter: M10 of docs/teach/metrics_recording.md.
 //
 // The speed is that of the smoothed way (track.h), from the samples 10 ms before and after. Bins as
 // near.h has them. Frame: world. Units: SI. Thread: any.

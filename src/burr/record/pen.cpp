@@ -68,7 +68,7 @@ Status Pen::write_beginning(const SessionInfo& info, const volume::Bone* embed) 
                           {"time",
                            "log_time is tick / rate_hz since the start, in nanoseconds; "
                            "recordings hold no dates"},
-                          {"described_in", "docs/recording.md of burr"}});
+                          {"described_in", "docs/use/recording.md of burr"}});
       !added.ok())
     return added;
 

@@ -501,7 +501,7 @@ constexpr const char* kSessionSchema = R"({
     "parts": {"type": "array", "items": {"type": "object", "properties": {
      "shape": {"enum": ["ball", "capsule", "cylinder", "frustum", "vesica", "box", "wedge", "half_shell", "tube", "grid"]},
      "sizes_m": {"type": "array", "items": {"type": "number"}, "description": "a, b, c and the rounding"},
-     "grid": {"type": "object", "description": "only of a grid, whose a is the edge of a cell; docs/touch.md", "properties": {
+     "grid": {"type": "object", "description": "only of a grid, whose a is the edge of a cell; docs/understand/touch_tools.md", "properties": {
       "size": {"type": "array", "items": {"type": "integer"}, "description": "nodes along x, y, z"},
       "phi": {"type": "array", "items": {"type": "integer"}, "description": "distances in cells / 256, below 0 inside; x changes fastest"}}},
      "at_m": {"type": "array", "items": {"type": "number"}},

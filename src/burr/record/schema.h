@@ -5,7 +5,7 @@
 // Their schema in the file is a FileDescriptorSet whose comments give the meaning and unit of each
 // field, so that any MCAP or protobuf tool reads them without burr. The rest is JSON with JSON
 // Schema. A field number is never reused: a field that is dropped leaves a gap, a new one takes a
-// new number. docs/recording.md is the table for readers.
+// new number. docs/use/recording_fields.md is the table for readers.
 // Thread: any; functions without state.
 #pragma once
 

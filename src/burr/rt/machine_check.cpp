@@ -24,7 +24,7 @@ std::string joined(std::initializer_list<std::string_view> parts) {
   return all;
 }
 
-constexpr const char* kHow = "docs/realtime.md, \"Allowing real time\", shows how";
+constexpr const char* kHow = "docs/understand/realtime.md, \"Allowing real time\", shows how";
 
 CheckLine processor_line(const Machine& machine) {
   CheckLine line{"processor", machine.processor.empty() ? "unknown" : machine.processor, ""};

@@ -83,7 +83,7 @@ ThreadGrant ask(const ThreadRequest& request) {
     grant.sentence += missing;
     if (request.realtime)
       grant.sentence +=
-          " (ticks may come late; docs/realtime.md says how to allow it for your user)";
+          " (ticks may come late; docs/understand/realtime.md says how to allow it for your user)";
   }
   return grant;
 }

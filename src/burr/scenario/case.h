@@ -1,7 +1,7 @@
 // scenario/case.h - a case: a bone, where to work on it, with which burr, what to reach and what to
 // spare.
 //
-// A TOML file (docs/cases.md). Units in the file: mm and revolutions per minute; here SI. The
+// A TOML file (docs/use/cases.md). Units in the file: mm and revolutions per minute; here SI. The
 // built-in cases are part of the library, so they are always available. Thread: any. Errors: one
 // sentence with file, field and remedy.
 #pragma once

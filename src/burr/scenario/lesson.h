@@ -5,7 +5,8 @@
 //     auto lesson = scenario::lesson_of(*work);                          // open_lesson.h
 //     auto known = scenario::place(*lesson, landmarks_of_the_bone, file);   // names become points
 //
-// A case of format 1 has an empty lesson. docs/cases.md is the table of fields. Frame: world, LPS.
+// A case of format 1 has an empty lesson. docs/use/cases.md is the table of fields. Frame: world,
+// LPS.
 // Units: m here, mm in the file. Thread: any. Errors: one sentence with file, line, field, remedy.
 #pragma once
 
@@ -108,7 +109,7 @@ struct Structure {
   std::uint32_t line = 0;
 };
 
-// When a step is done, by a measure of docs/metrics.md. This room does not know the measures;
+// When a step is done, by a measure of docs/teach/metrics.md. This room does not know the measures;
 // scoring/step_done.h does.
 struct DoneWhen {
   std::string measure, structure, region, along;  // structure, region: the step's own if not given

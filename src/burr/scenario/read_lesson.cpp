@@ -109,7 +109,7 @@ void read_step(Reader& reader, Step& out) {
     reader.fail("adds", "needs the region that is filled; add region");
 }
 
-// The words that [feedback] knows, docs/cases.md.
+// The words that [feedback] knows, docs/use/cases.md.
 constexpr std::array<std::string_view, 8> kWords = {
     "step", "target", "distance", "tone", "technique", "undo", "colours", "see-through"};
 

@@ -54,8 +54,8 @@ struct Recipe {
       iso;                  // surface level, in HU or the file's unit; none: 300 HU, or an estimate
   double smooth = -1;       // noise to remove, standard deviation in HU or the file's unit;
                             // 0: none, below 0: as much as is measured in the scan
-  std::string labels;       // path of a TOML file, docs/labels.md; empty: by name
-  std::string materials;    // path of a TOML file, docs/materials.md; empty: built in
+  std::string labels;       // path of a TOML file, docs/use/labels.md; empty: by name
+  std::string materials;    // path of a TOML file, docs/use/materials.md; empty: built in
   double memory_mb = 2048;  // budget of the work and the bone, for voxel_mm = 0
   Keep keep;
   double drop_islands_mm3 = 0;  // parts of the bone below this volume are removed
@@ -72,8 +72,9 @@ struct Recipe {
   // questioned, and inverted values are turned. false: as burr did before 2026-11-29; a recipe in
   // JSON that does not name it is of that time.
   bool check_scan = true;
-  // By which law bone is made of a scan. 2: docs/bone_of_a_scan.md. 1: as burr did before 2026-11-29,
-  // with bone beside thin walls that no scan has; a recipe in JSON that does not name it is of that time.
+  // By which law bone is made of a scan. 2: docs/understand/bone_of_a_scan.md. 1: as burr did
+  // before 2026-11-29, with bone beside thin walls that no scan has; a recipe in JSON that does not
+  // name it is of that time.
   int bone_law = 2;
 
   bool operator==(const Recipe& other) const;

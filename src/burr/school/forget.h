@@ -36,7 +36,8 @@ struct Recordings {
 [[nodiscard]] Result<Forgotten> forget(Store& store, const std::string& learner,
                                        const Recordings& more);
 
-// True: the statement (JSON, docs/school.md, `outbox`) is about this learner, or is torn and holds the pseudonym.
+// True: the statement (JSON, docs/teach/school.md, `outbox`) is about this learner, or is torn and
+// holds the pseudonym.
 [[nodiscard]] bool is_about(const std::string& statement, const std::string& learner);
 
 // Makes the files of the store anew, so that no bytes of deleted rows are left. forget() does it.

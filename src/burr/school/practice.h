@@ -12,8 +12,8 @@
 //
 // The curve is that of study/curve.h over the points of the product, so there is one from 5 finished sessions without
 // guidance on. It is flat where it gained less than 6 % of its plateau over the last three attempts, and falls where it
-// lost at least as much. Where the numbers come from, and that nobody has tested them with burr: docs/school.md. A
-// proposal forbids nothing and decides nothing.
+// lost at least as much. Where the numbers come from, and that nobody has tested them with burr:
+// docs/teach/school.md. A proposal forbids nothing and decides nothing.
 //
 // Days are counted from 1970 in the calendar of this computer. Thread: as the Store. Errors: as school/database.h.
 #pragma once

@@ -1,5 +1,5 @@
 // school/schema.h - the tables of the store, the same for SQLite and PostgreSQL, and the steps from an older version to
-// this one. For use of this room only. docs/school.md describes each table.
+// this one. For use of this room only. docs/teach/school.md describes each table.
 //
 // Thread: as the Database.
 #pragma once

@@ -2,8 +2,9 @@
 //
 // The actor is an account: the centre's address and the pseudonym, never a name. The id of a statement is made from the
 // session, the verb and the step, so the same session makes the same statements however often, and sending one again is
-// harmless. A statement that somebody passed or failed is made from a person's decision alone. docs/xapi.md is the
-// description for people, docs/xapi-profile.jsonld for programs. Thread: any.
+// harmless. A statement that somebody passed or failed is made from a person's decision alone.
+// docs/teach/xapi.md is the description for people, docs/teach/xapi-profile.jsonld for programs.
+// Thread: any.
 #pragma once
 
 #include <cstdint>

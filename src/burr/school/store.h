@@ -4,8 +4,9 @@
 //     auto store = school::Store::open(*place);
 //     for (const std::string& line : (*store)->notices()) ...   // read-only, retention is over
 //
-// Learners are pseudonyms. Names lie in a file (SQLite) or a schema (PostgreSQL) of their own. docs/school.md is the
-// description for people. Thread: one at a time. Errors: as school/database.h.
+// Learners are pseudonyms. Names lie in a file (SQLite) or a schema (PostgreSQL) of their own.
+// docs/teach/school.md is the description for people. Thread: one at a time. Errors: as
+// school/database.h.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 //
 //     const Measure* m = measure_named("skeletonised");   m->limits: lo_mm, hi_mm, share, over
 //
-// The presets are those of docs/metrics.md. Nobody has calibrated them. Thread: any.
+// The presets are those of docs/teach/metrics.md. Nobody has calibrated them. Thread: any.
 #pragma once
 
 #include <span>

@@ -3,8 +3,8 @@
 //     auto rubric = scoring::read_rubric("temporal-bone");       // built in, or a .toml file
 //     Status fits = scoring::check(*rubric, lesson);             // the lesson with its landmarks placed
 //
-// docs/scoring.md is the table of fields. Units in the file: mm; here SI. Thread: any. Errors: one
-// sentence with file, line, field and remedy.
+// docs/teach/scoring.md is the table of fields. Units in the file: mm; here SI. Thread: any.
+// Errors: one sentence with file, line, field and remedy.
 #pragma once
 
 #include <cstdint>

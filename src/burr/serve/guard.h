@@ -8,7 +8,8 @@
 //     stations    have a token of their own, with which they post pictures to /api/station and can read nothing
 //     POST        must bring JSON, of a station a picture, so no form of another page can make one
 //
-// Parts of the page itself need no token: they hold no data. docs/security.md lists threats and what meets them.
+// Parts of the page itself need no token: they hold no data. docs/teach/security.md lists threats
+// and what meets them.
 // Thread: any.
 #pragma once
 

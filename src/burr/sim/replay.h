@@ -3,7 +3,7 @@
 // So are those of a second hand, where one took part.
 //
 // The same build gives the same bits, whichever instruction set the processor has
-// (docs/recording.md). Thread: one.
+// (docs/use/recording.md). Thread: one.
 #pragma once
 
 #include <memory>

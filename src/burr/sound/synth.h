@@ -24,7 +24,7 @@
 // scale. When there is nothing to hear, the samples become exact zeros.
 //
 // A pure function of its input, in order: the same input gives the same samples.
-// Thread: one. Memory: none. Cost: docs/sound.md.
+// Thread: one. Memory: none. Cost: docs/use/sound.md.
 #pragma once
 
 #include <array>

@@ -119,7 +119,8 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
       }
     if (!hit)
       return error(
-          "the volume holds no solid bone; check --iso, or the table of labels (docs/labels.md)");
+          "the volume holds no solid bone; check --iso, or the table of labels "
+          "(docs/use/labels.md)");
   }
   place.at = *hit;
   if (!into.has_value()) {

@@ -2,7 +2,7 @@
 //
 // Three levels differ in what they believe about the structures, in their hands and in when they
 // stop. Speed and the longest time are the same for all, so time alone does not tell them apart.
-// Where each number is from: docs/surgeon.md. None was fitted to a score.
+// Where each number is from: docs/understand/surgeon.md. None was fitted to a score.
 // Units: SI. Thread: any; plain structs.
 #pragma once
 

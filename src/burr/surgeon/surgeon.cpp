@@ -52,7 +52,7 @@ Result<std::unique_ptr<Surgeon>> Surgeon::make(const volume::Bone& bone,
   if (std::none_of(lesson.steps.begin(), lesson.steps.end(), works))
     return error(
         "the case has no step with a region, so a scripted surgeon has nothing to do; add [[step]] "
-        "with region (docs/cases.md)");
+        "with region (docs/use/cases.md)");
   std::unique_ptr<Surgeon> out(new Surgeon(lesson, burr, skill, seed));
   auto believed = Believed::make(bone, out->lesson_, skill.perception, seed, progress);
   if (!believed) return believed.error();

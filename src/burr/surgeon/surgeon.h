@@ -10,7 +10,7 @@
 // includes neither metrics nor scoring (scripts/rooms.py). Everything follows from the seed and the
 // bone, so the same seed gives the same session to the bit, and its recording replays.
 //
-// What surgeons of this kind prove and what they do not: docs/surgeon.md.
+// What surgeons of this kind prove and what they do not: docs/understand/surgeon.md.
 // Frame: world (LPS). Units: SI. Thread: make() anywhere; consult() on the thread that runs the
 // ticks.
 #pragma once

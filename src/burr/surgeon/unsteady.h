@@ -5,7 +5,7 @@
 //     force    five such processes an octave apart, of equal power: about 1/f from 0.1 to 3 Hz
 //
 // All have the given rms from the first step on, and keep it for every step width. Sources of band
-// and size: docs/surgeon.md. Units: SI. Thread: one. Memory: none.
+// and size: docs/understand/surgeon.md. Units: SI. Thread: one. Memory: none.
 #pragma once
 
 #include <array>

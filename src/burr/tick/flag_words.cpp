@@ -16,7 +16,7 @@ constexpr std::pair<std::uint32_t, const char*> kWords[] = {
     {rt::kFlagThermal, "the device's motors were warm: only the continuous force was sent"},
     {rt::kFlagWatchdog,
      "ticks were lost and the force was released; close other programs or allow real-time "
-     "scheduling (docs/troubleshooting.md)"},
+     "scheduling (docs/use/troubleshooting.md)"},
     {rt::kFlagJump,
      "the hand moved more than 20 mm in one tick and the reading was rejected; check the device's "
      "cable and calibration"},
@@ -26,7 +26,7 @@ constexpr std::pair<std::uint32_t, const char*> kWords[] = {
      "more contacts were found than the list holds; use a larger voxel or a smaller burr"},
     {rt::kFlagPutOff,
      "the machine was too slow, or the burr too large, to cut every brick in every tick; the "
-     "bricks were cut in turn (docs/realtime.md, \"Too much at once\")"},
+     "bricks were cut in turn (docs/understand/realtime.md, \"Too much at once\")"},
     {rt::kFlagReserve,
      "there was no room left for new material or new surface; raise --reserve-bricks"},
     {rt::kFlagUndoFull,

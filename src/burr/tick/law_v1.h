@@ -4,7 +4,7 @@
  *     burr verify law my_law.so                                 tries it, in a process of its own
  *     burr mill phantom:block --motion pocket --law my_law.so   uses it
  *
- * docs/how_to_add_a_force_law.md says how, with an example.
+ * docs/develop/how_to_add_a_force_law.md says how, with an example.
  *
  * burr calls burr_law_v1() once in each tick in which the hand holds a round burr and may feel it, also in
  * free air (`touching` is 0 then). In other ticks (a reading is lost, an undo is in progress, a piece or a

@@ -1,8 +1,8 @@
 // tick/outbox.h - what leaves the tick: rows and bricks to the recorder, views to other threads,
 // heat.
 //
-// Doors: docs/realtime.md, "Doors". Nothing here may make the servo wait: what finds no room is
-// counted as dropped, or stays in its queue.
+// Doors: docs/understand/realtime.md, "Doors". Nothing here may make the servo wait: what finds no
+// room is counted as dropped, or stays in its queue.
 //
 // Thread: servo; view(), burr_radius() and released() any (one reader for the view). Memory: taken
 // at construction.

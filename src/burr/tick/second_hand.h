@@ -16,7 +16,7 @@
 // cuts is in the ledger and the strokes of the session; what it cut alone is in its own row.
 //
 // Thread: servo; view(), faults() one reader each, any. Frame: world. Memory: taken at construction.
-// Cost: docs/realtime.md.
+// Cost: docs/understand/realtime.md.
 #pragma once
 
 #include <cstdint>

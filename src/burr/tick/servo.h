@@ -12,7 +12,7 @@
 //
 // A pure function of (bone, hand, buttons, commands, lost): no clock, no random number, so that a
 // recording replays to the bit. Thread: tick() on one thread, the servo's, the only writer of the
-// bone. Memory: taken at construction. Cost: docs/realtime.md.
+// bone. Memory: taken at construction. Cost: docs/understand/realtime.md.
 #pragma once
 
 #include <cstddef>
@@ -65,7 +65,7 @@ class Servo {
   void set_shed(Shed shed) BURR_RT { orders_.request(shed); }
   [[nodiscard]] Shed shed() const BURR_RT { return controls_.shed; }
 
-  // ---- doors (docs/realtime.md, "Doors")
+  // ---- doors (docs/understand/realtime.md, "Doors")
   [[nodiscard]] rt::Ring<Command>& commands() BURR_RT { return orders_.commands(); }  // from main
   [[nodiscard]] rt::Latest<TickRow>& view() BURR_RT { return outbox_.view(); }        // to main
   [[nodiscard]] rt::Latest<FaultReport>& faults() BURR_RT { return hand_.faults().reports(); }

@@ -40,7 +40,7 @@ struct ServoSettings {
   double guard_slack = 60e-6;  // that the guard lets pass, energy_guard.h               [J]
   bool irrigated = false;      // coolant runs from the start
   double drag_gain = 1;        // of the bone's drag on the turning burr in the hand
-  double drag_hz = 5;          // it follows no faster, first order: see docs/decisions.md
+  double drag_hz = 5;          // it follows no faster, first order: see docs/develop/decisions
   double vibration_gain = 0;   // of the spindle in the hand: 1 as haptics/vibration.h says, 0 none
   double torque_gain = 1;  // of the motor on the hand, where the device can turn it; 0: no torque
                            // at all

@@ -25,8 +25,8 @@ struct Burr {
 inline constexpr double kSmallestDiameter = 0.6e-3,
                         kLargestDiameter = 7e-3;  // of round burrs in use  [m]
 
-// Share of the friction power that goes into cutting (docs/cutting.md, "Energy law"). A cutting
-// burr cuts in one direction of rotation only, a diamond burr in both.
+// Share of the friction power that goes into cutting (docs/understand/cutting.md, "Energy law"). A
+// cutting burr cuts in one direction of rotation only, a diamond burr in both.
 [[nodiscard]] inline double cutting_efficiency(BurrKind kind, double speed) BURR_RT {
   if (kind == BurrKind::diamond) return 0.25;
   return speed >= 0 ? 1.0 : 0.0;

@@ -7,7 +7,8 @@
 //
 // Frame: of the part; every kind but box and wedge is round about z. Units: any one length, the
 // same for sizes and places (m in a tool, voxel in touch). Thread: any. Memory: none.
-// Formulas: docs/touch.md, "Shapes"; the distances themselves are in shape_formulas.h.
+// Formulas: docs/understand/touch_tools.md, "Shapes"; the distances themselves are in
+// shape_formulas.h.
 #pragma once
 
 #include "burr/math/aabb.h"

@@ -3,10 +3,11 @@
 //
 //     J dw/dt = tau_m - tau_cut - b w,    tau_m = K (w_set - w), at most `torque` either way
 //
-// A speed-controlled motor behaves like a stiff spring around its set speed (docs/cutting.md,
-// "Spindle"): at full torque it has lost the share `droop` of the set speed. The bone's torque only
-// ever brakes: where it exceeds the motor's torque, the burr stands still. Within a tick all
-// torques are constant, so the step is exact, and stable however short J/K is.
+// A speed-controlled motor behaves like a stiff spring around its set speed
+// (docs/understand/cutting.md, "Spindle"): at full torque it has lost the share `droop` of the set
+// speed. The bone's torque only ever brakes: where it exceeds the motor's torque, the burr stands
+// still. Within a tick all torques are constant, so the step is exact, and stable however short J/K
+// is.
 //
 // The reaction of the motor acts on the handpiece. The hand feels
 //     tau_m - b w = tau_cut + J dw/dt        [N m]    about the shaft:

@@ -38,8 +38,8 @@ struct Tool {
 // The farthest that a touching part reaches from the origin [m].
 [[nodiscard]] double reach_of(const Tool& tool) BURR_RT;
 
-// A round burr as it is drawn (docs/touch.md, "Shaft"): the head cuts; a neck thinner than the head,
-// a cone and the shaft up to the handpiece rub.
+// A round burr as it is drawn (docs/understand/touch_tools.md, "Six unknowns"): the head cuts; a
+// neck thinner than the head, a cone and the shaft up to the handpiece rub.
 inline constexpr double kShaftEnd = 26e-3;  // from the centre of the head to the handpiece [m]
 [[nodiscard]] Tool burr_with_shaft(const Burr& burr) BURR_RT;
 

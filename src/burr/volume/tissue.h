@@ -1,7 +1,8 @@
 // volume/tissue.h - what a voxel is made of: a small id that is an index into a table of materials.
 //
 // Units: SI. Source of the default cutting energies: Carter & Hayes 1977 for the density law, and
-// the ranges of James et al. 2013. They are defaults to be calibrated, see docs/validation.md.
+// the ranges of James et al. 2013. They are defaults to be calibrated, see
+// docs/understand/validation.md.
 #pragma once
 
 #include <array>

@@ -5,8 +5,8 @@
 //     const Allowed allowed = allowed_in(identity.mode, lesson.feedback, is_guided);
 //
 // In no mode is a score shown while somebody works; nothing here could offer one. What a drill shows
-// as well (force, size and speed of the burr) is not in the table. docs/window.md explains it to
-// users. Pure functions. Thread: any. Units: SI.
+// as well (force, size and speed of the burr) is not in the table. docs/use/window_steps.md
+// explains it to users. Pure functions. Thread: any. Units: SI.
 #pragma once
 
 #include "burr/record/identity.h"
@@ -37,8 +37,8 @@ struct Allowed {
   bool operator==(const Allowed& other) const = default;
 };
 
-// A list of the case ([feedback], docs/cases.md) leaves out what it does not name. To an exam it can
-// only add colours and see-through. Without guidance there is no target, distance, tone or
+// A list of the case ([feedback], docs/use/cases.md) leaves out what it does not name. To an exam
+// it can only add colours and see-through. Without guidance there is no target, distance, tone or
 // technique. Mode free: everything but technique, whatever the case says.
 [[nodiscard]] Allowed allowed_in(record::Mode mode, const scenario::Feedback& feedback,
                                  bool is_guided);

@@ -38,7 +38,7 @@ struct HandRequest {
 struct HandKind {
   const char* name;   // as the user types it
   const char* makes;  // maker and models
-  const char* page;   // of docs/devices/
+  const char* page;   // of docs/use/devices/
 };
 [[nodiscard]] const std::vector<HandKind>& hand_kinds();
 // True for "touch" and "touch:Left": the part before the colon is a known kind.

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kLargest = std::size_t{64} << 20;         // of a library [byte]
 constexpr std::size_t kLargestSettings = std::size_t{1} << 20;  // [byte]
-constexpr const char* kHow = "docs/how_to_add_a_force_law.md says how to build a law";
+constexpr const char* kHow = "docs/develop/how_to_add_a_force_law.md says how to build a law";
 constexpr const char* kFirstLine = "burr law pass 1";
 
 Result<std::string> bytes_of(const std::string& path, std::size_t most, const char* option) {

@@ -247,7 +247,7 @@ std::string table_of(const std::vector<importing::TissueFound>& taken_for,
     if (wanted[n].spare != tissue.spare) table += fmt::format("spare = {}\n", wanted[n].spare);
   }
   return table.empty() ? table
-                       : "# Labels as chosen in burr's window; see docs/labels.md.\n" + table;
+                       : "# Labels as chosen in burr's window; see docs/use/labels.md.\n" + table;
 }
 
 Result<KeptTable> keep_table(const std::filesystem::path& folder, const std::string& table) {

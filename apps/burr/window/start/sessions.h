@@ -1,7 +1,7 @@
 // apps/burr/window/start/sessions.h - sessions in the window, kept automatically so that the user
 // can continue one.
 //
-//     state/sessions/session_20261122_193145.mcap  the recording, docs/recording.md
+//     state/sessions/session_20261122_193145.mcap  the recording, docs/use/recording.md
 //     state/sessions/session_20261122_193145.json  its recipe, and whether it ended well
 //     state/sessions/session_20261122_193145.html  its full report, if the user asked for it
 //     state/recent.toml                            scans opened lately

@@ -175,7 +175,7 @@ const char* words(int code) {
       return "is busy; wait a moment, and switch it off and on if it stays busy.";
     case kErrorNoDriver:
       return "cannot be opened by your user; give permission with a udev rule "
-             "(docs/devices/force_dimension.md).";
+             "(docs/use/devices/force_dimension.md).";
     case kErrorNoDevice:
       return "was disconnected; plug it in again.";
     case kErrorNotAvailable:

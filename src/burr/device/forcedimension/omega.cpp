@@ -128,7 +128,7 @@ Status Omega::find() {
   if (count <= 0)
     return error(Trouble::io,
                  "no Force Dimension device was found; plug it in, switch it on, and allow your "
-                 "user to open it with a udev rule (docs/devices/force_dimension.md)");
+                 "user to open it with a udev rule (docs/use/devices/force_dimension.md)");
   const int serial = settings_.serial >= 0 ? settings_.serial : serial_;
   if (serial < 0) {
     if (settings_.index < 0 || settings_.index >= count)

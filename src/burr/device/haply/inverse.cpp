@@ -266,7 +266,7 @@ Result<DeviceSpec> Inverse::connect() {
   if (anothers())
     met = error(Trouble::io,
                 fmt::format("{} is in use by another program; close that program, and look at the "
-                            "sessions in Haply's window (docs/devices/haply.md)",
+                            "sessions in Haply's window (docs/use/devices/haply.md)",
                             name_));
   if (met) {
     connection_->events = std::make_unique<Events>(connection_->line.peer(), events_port,

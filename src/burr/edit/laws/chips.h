@@ -5,10 +5,11 @@
 //     dF_r = (K_rc t + K_re s(t)) db      out of the bone         s = 1 - exp(-t / onset)
 //
 // The mechanistic model of milling (Arbabtafti et al. 2011 for bone burrs; Altintas 2012, ch. 2;
-// docs/cutting.md, "Chips"). Teeth run from the pole to the shaft. A piece of a tooth cuts where it
-// is in bone; its chip is as thick as the feed per tooth f times the cosine of its angle alpha to
-// the push. The mean over one revolution is an integral over the part of the ball that is in bone,
-// with z / (2 pi rho) edges per metre across them (z teeth; rho: distance from the axis).
+// docs/understand/cutting.md, "Chips"). Teeth run from the pole to the shaft. A piece of a tooth
+// cuts where it is in bone; its chip is as thick as the feed per tooth f times the cosine of its
+// angle alpha to the push. The mean over one revolution is an integral over the part of the ball
+// that is in bone, with z / (2 pi rho) edges per metre across them (z teeth; rho: distance from the
+// axis).
 //
 // f is not known beforehand. The hand pushes with F_n, so f is the value at which the thrust of all
 // pieces equals F_n (the spring's force is the thrust; nothing is added to it). From f follow the

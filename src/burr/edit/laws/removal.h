@@ -5,12 +5,12 @@
 //     F_t = P / (w r_eff)                                   [N]      torque = P / w
 //
 // The friction power at the contact, divided by the energy that cutting a volume of this tissue
-// takes (Agus et al. 2003; Preston; Archard; docs/cutting.md, "Energy law"). r_eff = r sin(theta),
-// theta: angle between the burr's axis and the contact normal; the pole of a burr cuts least.
-// Without push or speed nothing is cut. The bone drags the burr against the direction in which its
-// surface slides: F_t makes a burr walk sideways, and the other way when it turns backwards. The
-// law of level 2 is chips.h; the law of the thesis is the baseline for both. Thread: servo. Units:
-// SI. Frame: world.
+// takes (Agus et al. 2003; Preston; Archard; docs/understand/cutting.md, "Energy law"). r_eff = r
+// sin(theta), theta: angle between the burr's axis and the contact normal; the pole of a burr cuts
+// least. Without push or speed nothing is cut. The bone drags the burr against the direction in
+// which its surface slides: F_t makes a burr walk sideways, and the other way when it turns
+// backwards. The law of level 2 is chips.h; the law of the thesis is the baseline for both. Thread:
+// servo. Units: SI. Frame: world.
 #pragma once
 
 #include <algorithm>

@@ -5,10 +5,10 @@
 //     iso-surface: the new s;   c = s + r n
 //
 // M. Eriksson, Haptic and Visual Simulation of a Material Cutting Process, KTH 2006, 1.6.2. Where
-// the text leaves details open (docs/touch.md, "The seven methods"): contact begins where the path
-// of the hand crosses the surface; the march goes in fifths of a voxel, at most two radii; friction
-// is burr's own cone. Correct on smooth convex bone. One gradient represents one wall only: in a
-// groove the burr penetrates the other wall.
+// the text leaves details open (docs/understand/touch_methods.md, "The eight methods"): contact
+// begins where the path of the hand crosses the surface; the march goes in fifths of a voxel, at
+// most two radii; friction is burr's own cone. Correct on smooth convex bone. One gradient
+// represents one wall only: in a groove the burr penetrates the other wall.
 #pragma once
 
 #include "burr/haptics/touch_method.h"

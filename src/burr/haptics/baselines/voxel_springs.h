@@ -5,8 +5,9 @@
 //
 // The method of the thesis' Fig. 9; k_i grows with the share of bone in the voxel. In a half-space
 // at distance a from the centre: F = k_i pi / h^3 (r^4/12 - a^2 r^2/2 + 2 r |a|^3/3 - a^4/4)
-// (docs/touch.md, "Voxel springs"). So voxels half as large make it eight times as stiff; it
-// becomes softer beyond half immersion, and gives no force at all when the burr is wholly inside.
+// (docs/understand/touch_methods.md, "Voxel springs"). So voxels half as large make it eight times
+// as stiff; it becomes softer beyond half immersion, and gives no force at all when the burr is
+// wholly inside.
 #pragma once
 
 #include "burr/haptics/touch_method.h"

@@ -8,7 +8,7 @@
 // K is the stiffest wall of the device's table, which counts as 0.7 of the border: without a lever
 // k_t is what it always was. A spring k_r is felt at r beside the axis as k_r / r^2; fingers hold a
 // handle some 10 mm from its axis, so there an unknown device gets no stiffer spring than the wall
-// that it is known to show. Assumed, not measured: docs/safety.md, "A lever".
+// that it is known to show. Assumed, not measured: docs/understand/safety.md, "A lever".
 //
 // Thread: any; also in the tick. Units: SI. Memory: none.
 #pragma once

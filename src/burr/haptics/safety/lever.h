@@ -11,8 +11,8 @@
 // b and c are the damping of the device in translation and in rotation, t_d the delay from reading
 // to force beyond the held tick. For l = 0 it is the border of one axis, 2 b / T (stability.h).
 // Derived from the eigenvalues of D^-1/2 K D^-1/2 <= 2 / T, with K the stiffness of the tip seen at
-// the wrist and D the damping (docs/safety.md, "A lever"). A device whose turning is not actuated gets
-// force only and has no lever: k_t <= B.
+// the wrist and D the damping (docs/understand/safety.md, "A lever"). A device whose turning is not
+// actuated gets force only and has no lever: k_t <= B.
 //
 // Thread: any, also in the tick. Units: SI. Memory: none.
 #pragma once

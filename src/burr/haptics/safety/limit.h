@@ -6,9 +6,9 @@
 //     magnitude   limits of device, user and the motors' heat budget; direction kept
 //     growth      slew limit
 //
-// In this order, and after everything else (docs/safety.md, "Limits"). Fading is linear and ends 5
-// ms after detection; afterwards always comes waiting and the start ramp. Nothing here repeats an
-// old force, or drops a force at once of its own accord.
+// In this order, and after everything else (docs/understand/safety.md, "Limits"). Fading is linear
+// and ends 5 ms after detection; afterwards always comes waiting and the start ramp. Nothing here
+// repeats an old force, or drops a force at once of its own accord.
 //
 // A torque is limited like the force, in proportion to the device's maximum: with half of the peak
 // force as the user's limit, the torque is limited to half of its peak, and it grows in the same

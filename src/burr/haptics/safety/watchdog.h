@@ -3,8 +3,8 @@
 // The servo calls beat() in every tick. A guard thread calls poll() about every millisecond and
 // multiplies the device's present force by the result. Once tripped, the scale stays at zero until
 // the servo runs again and has started its own ramp from zero force (rearm()). Times are arguments,
-// so tests can use a virtual clock. Everything that stops a force: docs/safety.md, "Ticks that
-// stop".
+// so tests can use a virtual clock. Everything that stops a force: docs/understand/safety.md,
+// "Ticks that stop".
 //
 // Thread: beat() and rearm() servo; poll() guard. Wait-free.
 #pragma once

@@ -27,7 +27,7 @@ namespace burr::haptics {
 class ShaftTouch final : public TouchMethod {
  public:
   // Of the virtual spring of turning: far stiffer than any wrist, so that the tool seen stays with
-  // the hand; docs/decisions.md.  [m]
+  // the hand; docs/develop/decisions.  [m]
   static constexpr double kLever = 60e-3;
 
   ShaftTouch(const volume::IsoVertices& surface, const ProxySettings& settings,

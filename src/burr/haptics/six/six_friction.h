@@ -16,8 +16,8 @@
 // p_j / |T_j d| make the gradients equal), and the direction is found again, a few times.
 //
 // Frame: p_grid. Units: voxel; turns times L (rows.h). Thread: servo. Memory: none but its own.
-// Formulas: docs/touch.md, "Friction of a tool". Source: Goyal, Ruina & Papadopoulos 1991 for limit
-// surfaces, from memory.
+// Formulas: docs/understand/touch_tools.md, "Friction of a tool". Source: Goyal, Ruina &
+// Papadopoulos 1991 for limit surfaces, from memory.
 #pragma once
 
 #include <array>

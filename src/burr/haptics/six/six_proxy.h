@@ -17,8 +17,8 @@
 // (six_friction.h); without it V is least.
 //
 // The coupling point c is the origin of the tool. Thread: servo. Frame: world in arguments and
-// results. Memory: taken at construction. Formulas: docs/touch.md, "Six unknowns". Method: a proxy
-// as in Ortega, Redon & Coquillart 2007; the solver is Goldfarb & Idnani 1983.
+// results. Memory: taken at construction. Formulas: docs/understand/touch_tools.md, "Six unknowns".
+// Method: a proxy as in Ortega, Redon & Coquillart 2007; the solver is Goldfarb & Idnani 1983.
 #pragma once
 
 #include <array>

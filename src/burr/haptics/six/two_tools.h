@@ -11,7 +11,7 @@
 //     N = delta / (1 / k_a + l_a^2 / k_ra + 1 / k_b + l_b^2 / k_rb)       l: levers about the couplings
 //
 // Friction holds each tool on the bone as if it were alone (six_friction.h). Between the two tools there
-// is none: docs/touch.md, "Two tools".
+// is none: docs/understand/touch_two_tools.md, "Two tools".
 //
 // A part that is a lattice, as a piece of bone in the other hand, gives a row for each of its points
 // that may be reached (lattice_gap.h).

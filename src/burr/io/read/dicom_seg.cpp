@@ -11,6 +11,7 @@
 #include <set>
 
 #include "burr/base/printable.h"
+#include "burr/io/read/dicom_seg_frames.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/label_lists.h"
 #include "burr/io/read/samples.h"
@@ -23,7 +24,6 @@ using math::Vec3;
 
 constexpr const char* kBits = "1.2.840.10008.5.1.4.1.1.66.4";
 constexpr const char* kLabelMap = "1.2.840.10008.5.1.4.1.1.66.7";
-constexpr const char* kExportAgain = "convert it to .seg.nrrd in 3D Slicer";
 constexpr std::size_t kMostLabels = 255;
 
 enum class Kind { binary, fractional, label_map, unknown };
@@ -36,230 +36,8 @@ Kind kind_of(const DicomHeader& h) {
   return Kind::unknown;
 }
 
-std::uint64_t pixels_of(const DicomHeader& h) {
-  return static_cast<std::uint64_t>(h.rows) * static_cast<std::uint64_t>(h.columns) *
-         static_cast<std::uint64_t>(h.frame_count);
-}
-
 std::string segments_in_words(std::size_t count) {
   return count == 1 ? "one segment" : fmt::format("{} segments", count);
-}
-
-// ---- geometry
-
-// The grid in which each frame is one slice.
-struct Stack {
-  Affine affine;
-  int slices = 1;
-  std::vector<int> slice_of;  // (frames)
-  int empty = 0;              // slices without a frame
-};
-
-// Whether all places are whole multiples of the gap; off: the largest distance from one, in gaps.
-bool even(const std::vector<double>& places, double gap, double& off) {
-  constexpr double kOff = 0.1;
-  off = 0;
-  for (const double place : places)
-    off = std::max(off, std::abs(place / gap - std::round(place / gap)));
-  return off <= kOff;
-}
-
-// The distance between slices: as stated, else the smallest one between two frames, or, where they
-// are few and far apart, the thickness. 0: the places fit no even stack.
-double gap_of(const DicomHeader& h, const std::vector<double>& places, Scan& scan) {
-  double least = places[1] - places[0], off = 0;
-  for (std::size_t n = 1; n < places.size(); ++n)
-    least = std::min(least, places[n] - places[n - 1]);
-  int neighbours = 0;
-  for (std::size_t n = 1; n < places.size(); ++n)
-    neighbours += places[n] - places[n - 1] < 1.05 * least ? 1 : 0;
-  const double stated = h.between_slices_mm, thick = h.frames.front().thickness_mm;
-  if (stated > 0 && stated < 1.05 * least && even(places, stated, off)) return stated;
-  constexpr int kFew = 3;
-  if (thick > 0 && least > 1.5 * thick && neighbours < kFew && even(places, thick, off)) {
-    scan.notices.push_back(fmt::format(
-        "No two frames lie nearer to each other than {:.4g} mm; the slices are taken to be {:.4g} "
-        "mm apart, as thick as the file states them, and empty where there is no frame.",
-        least, thick));
-    return thick;
-  }
-  if (!even(places, least, off)) return 0;
-  return places.back() / std::round(places.back() / least);  // the ends say it best
-}
-
-// Checks that all frames lie in parallel planes with the same pixels.
-Status alike(const DicomHeader& h, const std::string& file) {
-  const DicomFrame& first = h.frames.front();
-  for (const DicomFrame& frame : h.frames) {
-    if (!frame.has_position)
-      return error(
-          fmt::format("{}: a frame states no position (Plane Position), so its place is not known; "
-                      "export the segmentation again",
-                      file));
-    if (!frame.has_orientation)
-      return error(
-          fmt::format("{}: its frames state no orientation (Plane Orientation), so their place is "
-                      "not known; export the segmentation again",
-                      file));
-    constexpr double kAlike = 1e-3;
-    if ((frame.row - first.row).norm() > kAlike || (frame.column - first.column).norm() > kAlike)
-      return error(fmt::format(
-          "{}: its frames lie in planes of different directions, which is no volume; {}", file,
-          kExportAgain));
-    if (std::abs(frame.row_gap_mm / first.row_gap_mm - 1) > kAlike ||
-        std::abs(frame.column_gap_mm / first.column_gap_mm - 1) > kAlike)
-      return error(
-          fmt::format("{}: its frames have pixels of different sizes; {}", file, kExportAgain));
-  }
-  return fine();
-}
-
-Result<Stack> stack_of(const DicomHeader& h, const std::string& file, Scan& scan) {
-  if (Status status = alike(h, file); !status) return status.error();
-  const DicomFrame& first = h.frames.front();
-  const Vec3 normal = first.row.cross(first.column);
-  std::vector<double> along, places;
-  for (const DicomFrame& frame : h.frames) along.push_back(normal.dot(frame.position_mm));
-  places = along;
-  std::sort(places.begin(), places.end());
-  constexpr double kSamePlace = 1e-3;  // [mm]
-  places.erase(std::unique(places.begin(), places.end(),
-                           [](double a, double b) { return b - a < kSamePlace; }),
-               places.end());
-  const double start = places.front();
-  for (double& place : places) place -= start;
-
-  Stack stack;
-  double gap = std::max(h.between_slices_mm, 0.0);
-  if (places.size() > 1) {
-    gap = gap_of(h, places, scan);
-    if (!(gap > 0))
-      return error(
-          fmt::format("{}: its slices are not evenly spaced, so the shape between them is "
-                      "not known; {}",
-                      file, kExportAgain));
-  } else if (gap == 0) {
-    gap = first.thickness_mm;
-    if (gap == 0) {
-      gap = 1;
-      scan.ask(Ask::spacing,
-               fmt::format("{}: states no thickness of its one slice (taken for 1 mm)", file));
-    }
-  }
-  if (!first.has_spacing)
-    scan.ask(Ask::spacing, fmt::format("{}: states no Pixel Spacing (taken for 1 mm)", file));
-  if (!(places.back() / gap < 32768))
-    return error(
-        fmt::format("{}: its frames are {:.4g} mm apart, too far for slices of {:.4g} mm; "
-                    "{}",
-                    file, places.back(), gap, kExportAgain));
-  stack.slices = static_cast<int>(std::lround(places.back() / gap)) + 1;
-  std::set<int> there;
-  for (const double place : along) {
-    stack.slice_of.push_back(static_cast<int>(std::lround((place - start) / gap)));
-    there.insert(stack.slice_of.back());
-  }
-  stack.empty = stack.slices - static_cast<int>(there.size());
-
-  // from the lowest frame to the highest; a stack may lean
-  const auto low =
-      static_cast<std::size_t>(std::min_element(along.begin(), along.end()) - along.begin());
-  const auto high =
-      static_cast<std::size_t>(std::max_element(along.begin(), along.end()) - along.begin());
-  const Vec3 from = h.frames[low].position_mm;
-  Vec3 step = normal * gap;
-  if (stack.slices > 1) step = (h.frames[high].position_mm - from) / (stack.slices - 1);
-  const double pixel = std::min(first.row_gap_mm, first.column_gap_mm);
-  for (std::size_t f = 0; f < h.frames.size(); ++f) {
-    const Vec3 off = h.frames[f].position_mm - from - step * stack.slice_of[f];
-    if (std::max(std::abs(off.dot(first.row)), std::abs(off.dot(first.column))) > 0.25 * pixel)
-      return error(
-          fmt::format("{}: its frames are shifted against each other, as in pictures that "
-                      "were cut into tiles; {}",
-                      file, kExportAgain));
-  }
-  stack.affine.step.col(0) = first.row * first.column_gap_mm;
-  stack.affine.step.col(1) = first.column * first.row_gap_mm;
-  stack.affine.step.col(2) = step;
-  stack.affine.origin = from;
-  return stack;
-}
-
-// ---- pixels
-
-// One bit for each pixel of all frames, one after another, as BINARY stores them.
-class Bits {
- public:
-  Bits() = default;
-  explicit Bits(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
-  explicit Bits(std::uint64_t count) : bytes_(static_cast<std::size_t>((count + 7) / 8)) {}
-
-  void set(std::uint64_t at) { bytes_[at >> 3] |= static_cast<std::uint8_t>(1U << (at & 7)); }
-  [[nodiscard]] bool at(std::uint64_t n) const { return (bytes_[n >> 3] >> (n & 7) & 1) != 0; }
-  // Calls f(n - from) for each bit that is set, in order.
-  template <class F>
-  void each(std::uint64_t from, std::uint64_t to, F&& f) const {
-    for (std::uint64_t n = from; n < to;) {
-      if ((n & 7) == 0 && bytes_[n >> 3] == 0) {
-        n += 8;
-        continue;
-      }
-      if (at(n)) f(static_cast<std::size_t>(n - from));
-      ++n;
-    }
-  }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-};
-
-Result<Bits> read_bits(const DicomHeader& h, const std::string& file, int threshold,
-                       Progress& progress) {
-  const auto failed = [&](const Status& status) {
-    return error(status.error().trouble, fmt::format("{}: {}", file, status.error().text));
-  };
-  const std::uint64_t pixels = pixels_of(h);
-  if (h.encapsulated && h.bits_allocated == 1) {  // frames that begin at a byte each
-    const std::uint64_t slice = pixels / static_cast<std::uint64_t>(h.frame_count),
-                        frame_bytes = (slice + 7) / 8;
-    auto bytes = inflate_dicom_frames(h, static_cast<std::size_t>(frame_bytes));
-    if (!bytes) return bytes.error();
-    const Bits frames(std::move(*bytes));
-    if (slice % 8 == 0) return frames;
-    Bits bits(pixels);
-    for (std::uint64_t f = 0; f < static_cast<std::uint64_t>(h.frame_count); ++f)
-      frames.each(8 * f * frame_bytes, 8 * f * frame_bytes + slice,
-                  [&](std::size_t n) { bits.set(f * slice + n); });
-    return bits;
-  }
-  if (h.encapsulated) {
-    auto values = read_dicom_pixels(h);
-    if (!values) return values.error();
-    Bits bits(pixels);
-    for (std::uint64_t n = 0; n < pixels; ++n)
-      if ((*values)[n] >= threshold) bits.set(n);
-    return bits;
-  }
-  auto source = open_dicom_pixels(h);
-  if (!source) return source.error();
-  if (h.bits_allocated == 1) {
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>((pixels + 7) / 8));
-    if (Status status = read_exactly(**source, bytes.data(), bytes.size()); !status)
-      return failed(status);
-    return Bits(std::move(bytes));
-  }
-  Bits bits(pixels);
-  std::vector<std::uint8_t> block(std::size_t{1} << 16);
-  for (std::uint64_t done = 0; done < pixels;) {
-    const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), pixels - done));
-    if (Status status = read_exactly(**source, block.data(), n); !status) return failed(status);
-    for (std::size_t i = 0; i < n; ++i)
-      if (block[i] >= threshold) bits.set(done + i);
-    done += n;
-    progress.report(0.5 * static_cast<double>(done) / static_cast<double>(pixels), "reading");
-    if (progress.cancelled()) return error(Trouble::interrupted, "reading was stopped");
-  }
-  return bits;
 }
 
 // ---- segments
@@ -378,7 +156,8 @@ void take_names(const DicomHeader& h, const std::map<int, std::uint8_t>& numbers
 // Paints the segments into the labels, the large ones first, so that the smaller one stays.
 class Painter {
  public:
-  Painter(const DicomHeader& h, const Stack& stack, const Bits& bits, std::vector<int> segments)
+  Painter(const DicomHeader& h, const SegStack& stack, const SegBits& bits,
+          std::vector<int> segments)
       : stack_(stack),
         bits_(bits),
         segments_(std::move(segments)),
@@ -398,7 +177,7 @@ class Painter {
     std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
       return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
-    Bits shared(scan.labels.size());
+    SegBits shared(scan.labels.size());
     std::size_t overlap = 0, done = 0;
     for (const auto& [count, segment] : order) {
       const std::uint8_t number = numbers.at(segment);
@@ -430,14 +209,14 @@ class Painter {
     bits_.each(frame * slice_, (frame + 1) * slice_, f);
   }
 
-  const Stack& stack_;
-  const Bits& bits_;
+  const SegStack& stack_;
+  const SegBits& bits_;
   std::vector<int> segments_;
   std::uint64_t slice_;
   std::map<int, std::vector<std::size_t>> frames_;
 };
 
-Status read_binary(const DicomHeader& h, const Stack& stack, const std::string& file, Scan& scan,
+Status read_binary(const DicomHeader& h, const SegStack& stack, const std::string& file, Scan& scan,
                    Progress& progress) {
   auto segments = segments_of_frames(h, file, scan);
   if (!segments) return segments.error();
@@ -458,7 +237,7 @@ Status read_binary(const DicomHeader& h, const Stack& stack, const std::string& 
         h.most_fractional > 0 ? "" : ", the file states no Maximum Fractional Value"));
   }
   const auto numbers = short_numbers(there, scan);
-  auto bits = read_bits(h, file, threshold, progress);
+  auto bits = read_seg_bits(h, file, threshold, progress);
   if (!bits) return bits.error();
   take_names(h, numbers, scan);
   scan.labels.assign(static_cast<std::size_t>(scan.size.x()) *
@@ -474,8 +253,8 @@ Status read_binary(const DicomHeader& h, const Stack& stack, const std::string& 
 }
 
 // The frames of a label map, in the order of the slices.
-Status read_label_map(const DicomHeader& h, const Stack& stack, const std::string& file, Scan& scan,
-                      Progress& progress) {
+Status read_label_map(const DicomHeader& h, const SegStack& stack, const std::string& file,
+                      Scan& scan, Progress& progress) {
   std::vector<int> frame_of(static_cast<std::size_t>(stack.slices), -1);
   for (std::size_t f = 0; f < stack.slice_of.size(); ++f) {
     int& frame = frame_of[static_cast<std::size_t>(stack.slice_of[f])];
@@ -534,7 +313,7 @@ std::string no_segmentation(const DicomHeader& h) {
   const int bits = h.bits_allocated;
   if (kind == Kind::unknown)
     return fmt::format("is a DICOM segmentation of the type \"{}\", which burr does not read; {}",
-                       base::printable(h.segmentation_type, 20), kExportAgain);
+                       base::printable(h.segmentation_type, 20), kSegExportAgain);
   const bool good = kind == Kind::binary       ? bits == 1 || bits == 8
                     : kind == Kind::fractional ? bits == 8
                                                : bits == 8 || bits == 16;
@@ -554,12 +333,12 @@ std::string no_segmentation(const DicomHeader& h) {
     return fmt::format(
         "is a DICOM segmentation of single bits that are {}, which burr does not "
         "read; {}",
-        h.encapsulated ? "compressed" : "stored big end first", kExportAgain);
+        h.encapsulated ? "compressed" : "stored big end first", kSegExportAgain);
   if (h.float_pixels)
     return fmt::format(
         "is a DICOM segmentation of floating-point pixels, which burr does not read; "
         "{}",
-        kExportAgain);
+        kSegExportAgain);
   const std::uint64_t pixels = pixels_of(h), bytes = (pixels * static_cast<unsigned>(bits) + 7) / 8;
   if (!h.encapsulated && bytes > h.pixels_length)
     return fmt::format(
@@ -645,7 +424,7 @@ Status read_segmentation(const DicomHeader& h, const ReadOptions& options, const
   if (h.decimal_commas)
     scan.notices.emplace_back(
         "The file writes numbers with a decimal comma (\"0,5\"): read as decimal points.");
-  auto stack = stack_of(h, file, scan);
+  auto stack = seg_stack_of(h, file, scan);
   if (!stack) return stack.error();
   if (auto count = voxel_count(file, h.columns, h.rows, stack->slices); !count)
     return count.error();

@@ -13,7 +13,7 @@
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/compare_frames.h"
 #include "burr/io/read/geometry.h"
-#include "burr/io/read/label_lists.h"
+#include "burr/io/read/nrrd_header.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
 #include "burr/io/read/text.h"
@@ -23,55 +23,6 @@ namespace {
 
 using math::Mat3;
 using math::Vec3;
-
-struct Header {
-  std::map<std::string, std::string> fields;  // by lower-case name without spaces
-  std::map<std::string, std::string> keys;    // key:=value, as in the file
-  std::vector<std::string> file_list;         // after "data file: LIST"
-  std::size_t end = 0;                        // where attached data begins
-};
-
-std::string field_name(std::string_view text) {
-  std::string name = lower(trimmed(text));
-  name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
-  if (name == "centerings") return "centers";
-  return name;
-}
-
-Result<Header> parse(const std::string& text, const std::string& file) {
-  Header header;
-  std::size_t at = 0;
-  bool first = true, listing = false;
-  while (at < text.size()) {
-    std::size_t end = text.find('\n', at);
-    const bool last = end == std::string::npos;
-    if (last) end = text.size();
-    const std::string_view line = trimmed(std::string_view(text).substr(at, end - at));
-    at = last ? text.size() : end + 1;
-    header.end = at;
-    if (line.empty()) return header;
-    if (first) {
-      first = false;
-      if (line.substr(0, 4) != "NRRD")
-        return error(fmt::format("{}: does not begin with NRRD", file));
-      continue;
-    }
-    if (listing) {
-      header.file_list.emplace_back(line);
-      continue;
-    }
-    if (line.front() == '#') continue;
-    const std::size_t key = line.find(":="), field = line.find(": ");
-    if (key != std::string_view::npos && (field == std::string_view::npos || key < field)) {
-      header.keys[std::string(line.substr(0, key))] = std::string(trimmed(line.substr(key + 2)));
-    } else if (const std::size_t colon = line.find(':'); colon != std::string_view::npos) {
-      const std::string name = field_name(line.substr(0, colon));
-      header.fields[name] = std::string(trimmed(line.substr(colon + 1)));
-      if (name == "datafile" && header.fields[name].substr(0, 4) == "LIST") listing = true;
-    }
-  }
-  return header;
-}
 
 bool sample_type(const std::string& name, SampleType& type) {
   static const std::map<std::string, SampleType> known = {
@@ -121,173 +72,9 @@ bool sample_type(const std::string& name, SampleType& type) {
   return true;
 }
 
-// "slice.%03d": one number, nothing else; never passed to printf
-bool numbered_name(const std::string& pattern, std::int64_t number, std::string& name) {
-  const std::size_t percent = pattern.find('%');
-  if (percent == std::string::npos || pattern.find('%', percent + 1) != std::string::npos)
-    return false;
-  std::size_t at = percent + 1;
-  const bool zeros = at < pattern.size() && pattern[at] == '0';
-  std::size_t width = 0;
-  while (at < pattern.size() && pattern[at] >= '0' && pattern[at] <= '9' && width < 100)
-    width = width * 10 + static_cast<std::size_t>(pattern[at++] - '0');
-  if (at >= pattern.size() || (pattern[at] != 'd' && pattern[at] != 'u' && pattern[at] != 'i') ||
-      width > 20)
-    return false;
-  std::string digits = std::to_string(number);
-  if (digits.size() < width) digits.insert(0, width - digits.size(), zeros ? '0' : ' ');
-  name = pattern.substr(0, percent) + digits + pattern.substr(at + 1);
-  return true;
-}
-
-// The names of all data files; empty: the data is in the header's own file.
-Result<std::vector<std::filesystem::path>> data_files(const Header& header,
-                                                      const std::filesystem::path& path) {
-  std::vector<std::filesystem::path> files;
-  const auto field = header.fields.find("datafile");
-  if (field == header.fields.end()) return files;
-  std::vector<std::string> names;
-  const std::vector<std::string> parts = words(field->second);
-  std::int64_t from = 0, to = 0, step = 1;
-  std::error_code ignored;
-  const auto exact = beside(path, field->second);  // a name may look like a pattern
-  if (exact && std::filesystem::exists(*exact, ignored)) {
-    names.push_back(field->second);
-  } else if (!parts.empty() && parts[0] == "LIST") {
-    names = header.file_list;
-  } else if (parts.size() >= 4 && parts[0].find('%') != std::string::npos &&
-             to_number(parts[1], from) && to_number(parts[2], to) && to_number(parts[3], step)) {
-    constexpr std::int64_t kLargest = 1'000'000'000;
-    const auto small = [](std::int64_t n) { return n >= -kLargest && n <= kLargest; };
-    if (step == 0 || !small(from) || !small(to) || !small(step) ||
-        std::abs(to - from) / std::abs(step) > 100000)
-      return error(fmt::format("{}: data file: the range of numbers is wrong", short_name(path)));
-    for (std::int64_t n = from; step > 0 ? n <= to : n >= to; n += step) {
-      std::string name;
-      if (!numbered_name(parts[0], n, name))
-        return error(
-            fmt::format("{}: data file: the pattern must hold exactly one number such as %03d",
-                        short_name(path)));
-      names.push_back(name);
-    }
-  } else {
-    names.push_back(field->second);
-  }
-  for (const std::string& name : names) {
-    auto file = beside(path, name);
-    if (!file) return file.error();
-    std::error_code trouble;
-    const auto kind = std::filesystem::symlink_status(*file, trouble).type();
-    if (kind != std::filesystem::file_type::regular)
-      return error(fmt::format(
-          "{}: its data file {} is missing or not a regular file; put it in the same folder",
-          short_name(path), short_name(*file)));
-    files.push_back(*file);
-  }
-  return files;
-}
-
 std::map<std::string, double> unit_mm() {
   return {{"mm", 1},           {"cm", 10},       {"m", 1000},       {"um", 1e-3},
           {"\xC2\xB5m", 1e-3}, {"micron", 1e-3}, {"microns", 1e-3}, {"nm", 1e-6}};
-}
-
-// What a segment is, by its code, from the tag that 3D Slicer writes:
-// "...|TerminologyEntry:LIST~SCT^123037004^Anatomical Structure~SCT^91609006^Mandible~...|...": the
-// third part is the type. "Mandible SCT 91609006", or empty where it says no more than "tissue".
-std::string coded_meaning(const std::string& tags) {
-  constexpr std::string_view kEntry = "TerminologyEntry:";
-  const std::size_t at = tags.find(kEntry);
-  if (at == std::string::npos) return {};
-  std::string_view entry = std::string_view(tags).substr(at + kEntry.size());
-  entry = entry.substr(0, entry.find('|'));
-  for (int skip = 0; skip < 2; ++skip) {
-    const std::size_t next = entry.find('~');
-    if (next == std::string_view::npos) return {};
-    entry.remove_prefix(next + 1);
-  }
-  entry = entry.substr(0, entry.find('~'));
-  const std::size_t first = entry.find('^'), second = entry.find('^', first + 1);
-  if (first == std::string_view::npos || second == std::string_view::npos) return {};
-  const std::string_view scheme = entry.substr(0, first),
-                         code = entry.substr(first + 1, second - first - 1),
-                         meaning = entry.substr(second + 1);
-  return meaning_of_code(scheme, code, meaning);
-}
-
-struct Segments {
-  std::vector<Label> labels;  // their values as in the file
-  std::vector<int> layers;    // of each
-  std::vector<bool> bare;     // it names neither value nor layer, as in older files: one layer each
-};
-
-// The numbers n of the keys Segment<n>_...: they need not begin at 0, nor follow each other.
-std::set<int> segment_numbers(const Header& header) {
-  constexpr std::string_view kSegment = "Segment";
-  constexpr std::size_t kMostSegments = 4096;
-  std::set<int> numbers;
-  for (const auto& [key, value] : header.keys) {
-    const std::size_t end = key.find('_');
-    std::int64_t number = 0;
-    if (key.rfind(kSegment, 0) == 0 && end != std::string::npos && end > kSegment.size() &&
-        to_number(key.substr(kSegment.size(), end - kSegment.size()), number) && number >= 0 &&
-        number < 1'000'000 && numbers.size() < kMostSegments)
-      numbers.insert(static_cast<int>(number));
-  }
-  return numbers;
-}
-
-// "0.5 0.5 0.5", or 0 to 255. True: it was 0 to 255.
-bool take_colour(const std::vector<double>& numbers, Label& label) {
-  if (numbers.size() < 3) return false;
-  const double most = std::max({numbers[0], numbers[1], numbers[2]});
-  const bool bytes = most >= 2 && most <= 255;
-  for (std::size_t c = 0; c < 3; ++c)
-    if (std::isfinite(numbers[c]))
-      label.colour[c] =
-          static_cast<float>(std::clamp(numbers[c] / (bytes ? 255.0 : 1.0), 0.0, 1.0));
-  return bytes;
-}
-
-// Segment0_Name:=... of a .seg.nrrd
-Segments segments(const Header& header, std::vector<std::string>& notices) {
-  Segments out;
-  int byte_colours = 0;
-  for (const int n : segment_numbers(header)) {
-    const std::string prefix = fmt::format("Segment{}_", n);
-    const auto get = [&](const char* what) {
-      const auto found = header.keys.find(prefix + what);
-      return found == header.keys.end() ? std::string() : found->second;
-    };
-    const std::string value = get("LabelValue"), name = get("Name"), id = get("ID");
-    if (value.empty() && name.empty() && id.empty()) continue;
-    Label label;
-    std::int64_t number = n + 1, layer = 0;
-    if (!value.empty() && !to_number(value, number)) continue;
-    if (number < 1 || number > std::numeric_limits<int>::max()) continue;
-    if (!to_number(get("Layer"), layer) || layer < 0 || layer > 4096) layer = 0;
-    label.value = static_cast<int>(number);
-    label.name = !name.empty() ? name : id;
-    label.meaning = coded_meaning(get("Tags"));
-    byte_colours += take_colour(numbers(get("Color")), label) ? 1 : 0;
-    bool twice = false;
-    for (std::size_t other = 0; other < out.labels.size() && !twice; ++other) {
-      twice = out.labels[other].value == label.value && out.layers[other] == layer;
-      if (twice)
-        notices.push_back(fmt::format(
-            "Two segments, {} and {}, have the same value {}: the first name is taken.",
-            base::printable(out.labels[other].name), base::printable(label.name), label.value));
-    }
-    if (twice) continue;
-    out.labels.push_back(label);
-    out.layers.push_back(static_cast<int>(layer));
-    out.bare.push_back(value.empty() && get("Layer").empty());
-  }
-  if (byte_colours > 0)
-    notices.push_back(
-        fmt::format("The colours of {} go beyond 1: they are read as 0 to 255.",
-                    byte_colours == 1 ? "one segment" : fmt::format("{} segments", byte_colours)));
-  return out;
 }
 
 struct Shape {
@@ -297,7 +84,7 @@ struct Shape {
   bool layers_first = false;        // the layers of a voxel follow each other in the file
 };
 
-Result<Shape> shape_of(const Header& header, const std::string& file, bool segmentation) {
+Result<Shape> shape_of(const NrrdHeader& header, const std::string& file, bool segmentation) {
   const auto text = header.fields.find("sizes");
   if (text == header.fields.end())
     return error(fmt::format("{}: the field \"sizes\" is missing", file));
@@ -391,8 +178,8 @@ void compare_with_spacings(const std::vector<std::string>& spacings, const Shape
     compare_frames({directions, "space directions"}, {sized, "spacings"}, file, scan);
 }
 
-Affine affine_of(const Header& header, const Shape& shape, const std::string& file, bool check_scan,
-                 Scan& scan) {
+Affine affine_of(const NrrdHeader& header, const Shape& shape, const std::string& file,
+                 bool check_scan, Scan& scan) {
   const auto get = [&](const char* name) {
     const auto found = header.fields.find(name);
     return found == header.fields.end() ? std::string() : found->second;
@@ -464,7 +251,7 @@ Affine affine_of(const Header& header, const Shape& shape, const std::string& fi
   return affine;
 }
 
-Result<std::int64_t> skip_field(const Header& header, const char* name, const std::string& file,
+Result<std::int64_t> skip_field(const NrrdHeader& header, const char* name, const std::string& file,
                                 std::int64_t lowest) {
   const auto found = header.fields.find(name);
   std::int64_t n = 0;
@@ -519,11 +306,11 @@ Status read_ascii(ByteSource& source, std::size_t count, VoxelSink& sink) {
 }
 
 // The data: opened, decompressed and positioned at its first byte.
-Result<std::unique_ptr<ByteSource>> data_source(const Header& header,
+Result<std::unique_ptr<ByteSource>> data_source(const NrrdHeader& header,
                                                 const std::filesystem::path& path,
                                                 const std::string& encoding, std::size_t bytes) {
   const std::string file = short_name(path);
-  auto files = data_files(header, path);
+  auto files = nrrd_data_files(header, path);
   if (!files) return files.error();
   auto lines = skip_field(header, "lineskip", file, 0);
   if (!lines) return lines.error();
@@ -624,12 +411,12 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
   constexpr std::size_t kLongestHeader = std::size_t{4} << 20;
   auto head = first_unpacked_bytes(path, kLongestHeader);
   if (!head) return head.error();
-  auto header = parse(std::string(head->begin(), head->end()), file);
+  auto header = parse_nrrd(std::string(head->begin(), head->end()), file);
   if (!header) return header.error();
 
   Scan scan;
   scan.format = "NRRD";
-  Segments named = segments(*header, scan.notices);
+  NrrdSegments named = nrrd_segments(*header, scan.notices);
   scan.label_names = named.labels;
   const bool segmentation = !scan.label_names.empty();
   if (segmentation) scan.format = "NRRD segmentation";
