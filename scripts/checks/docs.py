@@ -179,7 +179,8 @@ for name in documents:
         check_command(name, code, new_options)
 
 check_indexes(documents)
-for name in tracked(".", ":!third_party"):
+# the marks of learners name the text of their rubric by its hash, so not a comment of it is changed
+for name in tracked(".", ":!third_party", ":!rubrics"):
     try:
         check_names(name, (ROOT / name).read_text())
     except UnicodeDecodeError:

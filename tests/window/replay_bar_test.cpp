@@ -91,7 +91,7 @@ class ReplayByMouse : public Window {
   Watched seen_;
 };
 
-// Keys of replay_page.cpp that have a button; the other ones turn and zoom the view, or go along the
+// Keys of watch_keys.cpp that have a button; the other ones turn and zoom the view, or go along the
 // time line, as the mouse does there.
 TEST(ReplayBar, HasEachActionOnceWithItsKey) {
   const std::vector<Action> bar = replay_bar_actions();
