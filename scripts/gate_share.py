@@ -17,7 +17,7 @@ import time
 
 PARTS = {  # cmake/tiers.cmake says which tests these are
     1: "ThreadSanitizer",
-    2: "the second compiler and 64-bit ARM",
+    2: "the second compiler, 64-bit ARM, and Windows",
     3: "the web page",
     4: "Slurm, packages, installation, and each header alone",
 }
