@@ -39,6 +39,7 @@ case $where in
     remove_wine() { wineserver64 -k || true; rm -rf "$WINEPREFIX"; }
     trap remove_wine EXIT
     rm -rf "$WINEPREFIX"  # one that a killed run has left
+    wine64 wineboot --init >"$build/portable_wine.log" 2>&1 || { cat "$build/portable_wine.log"; exit 1; }
     # its C library ends a line with two characters
     there() { wine64 "build/windows/$1.exe" "${@:2}" | tr -d '\r'; }
     ;;
