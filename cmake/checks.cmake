@@ -221,8 +221,8 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set_tests_properties(asan.device tsan.device PROPERTIES RESOURCE_LOCK clock)
   set_tests_properties(tsan.window PROPERTIES RESOURCE_LOCK clock PROCESSORS ${BURR_PROCESSORS})
 
-  # other processors: the core alone, and the same bits as here
-  foreach(processor aarch64 web)
+  # other processors and systems: the core alone, and the same bits as here
+  foreach(processor aarch64 windows web)
     add_test(NAME portable.${processor} COMMAND ${checks}/portable.sh ${processor} ${CMAKE_BINARY_DIR})
     set_tests_properties(portable.${processor} PROPERTIES SKIP_RETURN_CODE 77 PROCESSORS ${BURR_PROCESSORS} TIMEOUT 1800 LABELS long
       FIXTURES_SETUP portable_${processor})
@@ -256,7 +256,7 @@ endif()
 # this is left out, and the tests begin at once.
 add_test(NAME other_builds COMMAND ${CMAKE_COMMAND} -E true)
 set_tests_properties(other_builds PROPERTIES LABELS long)
-foreach(build asan.build asan.glue_build tsan.build clang.build portable.aarch64 portable.web)
+foreach(build asan.build asan.glue_build tsan.build clang.build portable.aarch64 portable.windows portable.web)
   if(TEST ${build})
     set_property(TEST other_builds APPEND PROPERTY DEPENDS ${build})
   endif()

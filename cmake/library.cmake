@@ -55,7 +55,7 @@ list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 # burr_part(NAME WITH TARGET... FROM GLOB...): the sources that match; each belongs to one part.
 set(rest ${BURR_SOURCES})
 list(REMOVE_ITEM rest ${BURR_READERS} ${BURR_SEG_SOURCES} ${BURR_CORE_SOURCES})
-list(FILTER rest EXCLUDE REGEX "_plain\\.cpp$")
+list(FILTER rest EXCLUDE REGEX "_(plain|windows)\\.cpp$")
 if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   list(FILTER rest EXCLUDE REGEX "_avx(2|512)\\.cpp$")
 endif()

@@ -1,4 +1,5 @@
-# burr_core alone, and what checks it: for other processors and for a browser. BURR_CORE_ONLY; presets `aarch64`, `web`.
+# burr_core alone, and what checks it: for other processors, for Windows and for a browser. BURR_CORE_ONLY;
+# presets `aarch64`, `windows`, `web`.
 if(NOT EMSCRIPTEN)
   find_package(Threads REQUIRED)
 else()  # one thread; none is ever started
@@ -38,10 +39,25 @@ if(NOT EMSCRIPTEN AND EXISTS ${BURR_GOOGLETEST}/CMakeLists.txt)
   set(core_tests math/pose math/rotation math/sums tool/spindle volume/bone volume/sample volume/iso_vertices volume/thickness
     edit/carve edit/carve_units edit/brush edit/mirror haptics/limit haptics/energy_guard haptics/soft_contact)
   list(TRANSFORM core_tests REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1_test.cpp")
+  set(lanes ${PROJECT_SOURCE_DIR}/tests/rt/lanes_checks_scalar.cpp)
+  set(guard ${PROJECT_SOURCE_DIR}/tests/support/rt_guard.cpp)
+  if(WIN32)  # the room that has sources of its own there, and the wide kernels
+    set(room_rt clock stats doors slow_atoms reserved thread machine_check system_windows)
+    list(TRANSFORM room_rt REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/rt/\\1_test.cpp")
+    list(APPEND core_tests ${room_rt} ${PROJECT_SOURCE_DIR}/tests/base/result_test.cpp)
+    list(APPEND lanes ${PROJECT_SOURCE_DIR}/tests/rt/lanes_checks_avx2.cpp ${PROJECT_SOURCE_DIR}/tests/rt/lanes_checks_avx512.cpp)
+    burr_kernels(${lanes})
+    set(guard ${PROJECT_SOURCE_DIR}/tests/support/rt_guard_windows.cpp)
+    burr_windows(${guard} ${PROJECT_SOURCE_DIR}/tests/rt/system_windows_test.cpp)
+  endif()
   # bones by formula for the tests; no more of that room is needed
-  add_executable(test_core ${core_tests} ${PROJECT_SOURCE_DIR}/tests/support/rt_guard.cpp
-    ${PROJECT_SOURCE_DIR}/tests/rt/lanes_test.cpp ${PROJECT_SOURCE_DIR}/tests/rt/lanes_checks_scalar.cpp
+  add_executable(test_core ${core_tests} ${guard} ${PROJECT_SOURCE_DIR}/tests/rt/lanes_test.cpp ${lanes}
     ${PROJECT_SOURCE_DIR}/src/burr/phantom/build.cpp ${PROJECT_SOURCE_DIR}/src/burr/phantom/shapes.cpp)
+  if(WIN32)
+    set(BURR_GUARDED malloc calloc realloc free __imp__aligned_malloc __imp__aligned_free pthread_mutex_lock)
+    list(TRANSFORM BURR_GUARDED PREPEND "LINKER:--wrap=" OUTPUT_VARIABLE wraps)
+    target_link_options(test_core PRIVATE ${wraps})
+  endif()
   target_include_directories(test_core PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_core PRIVATE burr_core burr_options gtest_main ${CMAKE_DL_LIBS})
   burr_glue(test_core)

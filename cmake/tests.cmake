@@ -3,6 +3,7 @@ find_package(GTest REQUIRED)
 include(GoogleTest)
 
 file(GLOB BURR_TEST_SUPPORT CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/support/*.cpp)
+list(FILTER BURR_TEST_SUPPORT EXCLUDE REGEX "_windows\\.cpp$")
 add_library(burr_test_support STATIC ${BURR_TEST_SUPPORT})
 set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/rt_guard.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # it defines malloc
 # it alone knows where this checkout lies, so a compiler's cache finds all other sources again in another folder
@@ -39,6 +40,7 @@ set(alone_but_device OmegaTest MappedHand HaplyMessage CrtkNames CrtkReading Pol
   InverseTest.OfMany* PolhemTest.OfMany* InverseTest.OpenedAndClosedMany* PolhemTest.OpenedAndClosedMany* LeaderTest.OpenedAndClosedMany*)
 foreach(room ${rooms})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*_test.cpp)
+  list(FILTER sources EXCLUDE REGEX "_windows_test\\.cpp$")  # cmake/portable.cmake
   if(BURR_SANITIZE STREQUAL "thread")
     list(FILTER sources INCLUDE REGEX "${with_threads}")
   elseif(BURR_SANITIZE MATCHES "address")

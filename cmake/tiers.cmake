@@ -2,7 +2,7 @@
 # full tier, each part at least every fourth time: scripts/gate_share.py chooses it by the label full-N.
 set(full_1 "^tsan[.]")
 set(full_2 "^clang[.]|^portable[.]aarch64")
-set(full_3 "^portable[.]web$|^page$|^school_page$")
+set(full_3 "^portable[.](web|windows)|^page$|^school_page$")
 set(full_4 "^batch_slurm$|^house[.](package|install|headers_compile_alone|tidy)$|^asan[.](glue_build|device|school|serve)$")
 get_property(tests DIRECTORY PROPERTY TESTS)  # not those that test programs tell ctest: they are all in `./test`
 foreach(test ${tests})

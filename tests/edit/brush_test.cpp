@@ -7,6 +7,7 @@
 #include <memory>
 
 #include <cstdio>
+#include <numbers>
 #include <vector>
 
 #include "burr/base/progress.h"
@@ -204,7 +205,7 @@ void smooth(Work& work, const Vec3& on_surface, const Vec3& outward, double dt =
 std::vector<Vec3> about(int count) {
   std::vector<Vec3> all;
   for (int n = 0; n < count; ++n) {
-    const double z = 1 - (2 * n + 1.0) / count, turn = n * M_PI * (3 - std::sqrt(5.0));
+    const double z = 1 - (2 * n + 1.0) / count, turn = n * std::numbers::pi * (3 - std::sqrt(5.0));
     const double r = std::sqrt(1 - z * z);
     all.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
   }
@@ -239,7 +240,7 @@ Shape shape_of(const Work& work) {
 
 // A ball with hills and hollows of half a voxel, about two millimetres apart.
 double rippled(const Vec3& p) {
-  const double k = 2 * M_PI / (2 * kMm);
+  const double k = 2 * std::numbers::pi / (2 * kMm);
   return kBall - p.norm() +
          0.5 * kVoxel * std::sin(k * p.x()) * std::sin(k * p.y() + 1) * std::sin(k * p.z() + 2) * 2;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <random>
 
 #include "burr/base/hash.h"
@@ -67,7 +68,7 @@ TEST_P(Carving, APlungeTakesTheCapOfTheBall) {
   Work work(phantom::slab(), GetParam());
   const double before = volume::volume_of(*work.bone);
   work.cut_whole_ball({0.1 * kMm, -0.2 * kMm, r - depth}, r);
-  const double cap = M_PI * depth * depth * (r - depth / 3);  // 0.24295 mm^3
+  const double cap = std::numbers::pi * depth * depth * (r - depth / 3);  // 0.24295 mm^3
   const double taken = before - volume::volume_of(*work.bone);
   EXPECT_NEAR(cap / kMm3, 0.24295, 1e-4);
   EXPECT_NEAR(taken, cap, (GetParam() > 0.4 ? 0.15 : 0.03) * cap);
@@ -79,7 +80,7 @@ TEST_P(Carving, ABuriedBallTakesItsWholeVolume) {
   const double r = 2 * kMm;
   Work work(phantom::slab({0, 0, 1}, {0, 0, 5 * kMm}), GetParam());
   work.cut_whole_ball({0.13 * kMm, 0.07 * kMm, -0.11 * kMm}, r);
-  const double ball = 4.0 / 3 * M_PI * r * r * r;
+  const double ball = 4.0 / 3 * std::numbers::pi * r * r * r;
   EXPECT_NEAR(work.carver.ledger().removed, ball, 0.01 * ball);
 }
 
@@ -91,8 +92,8 @@ TEST_P(Carving, ASlotHasTheSegmentsCrossSection) {
   const double area =
       r * r * std::acos(1 - depth / r) - (r - depth) * std::sqrt(2 * r * depth - depth * depth);
   EXPECT_NEAR(area / (kMm * kMm), 0.23490, 1e-4);
-  const double swept =
-      area * length + M_PI * depth * depth * (r - depth / 3);  // and half a cap at each end
+  const double swept = area * length + std::numbers::pi * depth * depth *
+                                           (r - depth / 3);  // and half a cap at each end
   EXPECT_NEAR(work.carver.ledger().removed, swept, (GetParam() > 0.4 ? 0.15 : 0.03) * swept);
 }
 

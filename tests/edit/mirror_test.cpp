@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -296,9 +297,9 @@ TEST(Mirror, BothSidesTogetherLoseExactlyTwiceWhatTheHandsSideLosesWithoutOne) {
 
 // The volume of the union of two equal balls, their centres `apart`  [any length]
 double union_of_balls(double r, double apart) {
-  const double ball = 4.0 / 3 * M_PI * r * r * r;
+  const double ball = 4.0 / 3 * std::numbers::pi * r * r * r;
   if (apart >= 2 * r) return 2 * ball;
-  const double lens = M_PI * (4 * r + apart) * std::pow(2 * r - apart, 2) / 12;
+  const double lens = std::numbers::pi * (4 * r + apart) * std::pow(2 * r - apart, 2) / 12;
   return 2 * ball - lens;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "burr/haptics/contact.h"
@@ -149,7 +150,8 @@ TEST(EnergyGuard, KnownDampingOfTheDevicePaysAndAPassiveWallIsLeftAlone) {
     (void)tick(guard, wall(0));
     double most = 0;
     for (int n = 1; n <= 1000; ++n) {
-      (void)tick(guard, wall(-1e-3 * std::sin(2 * M_PI * 20 * n * kTick), share * 2 * 0.5 / kTick));
+      (void)tick(guard, wall(-1e-3 * std::sin(2 * std::numbers::pi * 20 * n * kTick),
+                             share * 2 * 0.5 / kTick));
       most = std::max(most, guard.damping());
     }
     if (share < 1) {

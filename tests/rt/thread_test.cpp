@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <pthread.h>
-#include <sched.h>
-#include <thread>
-
 #include <atomic>
+#include <string>
+#include <thread>
 
 namespace burr::rt {
 namespace {
@@ -26,38 +24,6 @@ TEST(Thread, IsJoinedWhenItGoes) {
     const Thread thread({}, [&] { done = 7; });
   }
   EXPECT_EQ(done, 7);
-}
-
-TEST(Thread, WhatItGotIsWhatTheKernelSays) {
-  std::atomic<int> policy = -1;
-  Thread thread({.name = "servo", .realtime = true, .priority = 70}, [&] {
-    sched_param param = {};
-    int now = -1;
-    pthread_getschedparam(pthread_self(), &now, &param);
-    if (now == SCHED_FIFO && param.sched_priority != 70) now = -2;
-    policy = now;
-  });
-  thread.join();
-  const ThreadGrant& grant = thread.grant();
-  EXPECT_EQ(policy, grant.fifo ? SCHED_FIFO : SCHED_OTHER);
-  if (grant.fifo && grant.locked) {
-    EXPECT_EQ(grant.sentence, "servo: SCHED_FIFO 70, memory locked");
-  } else {
-    EXPECT_NE(grant.sentence.find("docs/understand/realtime.md"), std::string::npos)
-        << grant.sentence;
-  }
-}
-
-TEST(Thread, StaysOnTheCoreItWasGiven) {
-  cpu_set_t allowed;
-  ASSERT_EQ(pthread_getaffinity_np(pthread_self(), sizeof allowed, &allowed), 0);
-  unsigned core = 0;
-  while (!CPU_ISSET(core, &allowed)) ++core;
-  std::atomic<int> seen = -1;
-  Thread thread({.core = static_cast<int>(core)}, [&] { seen = sched_getcpu(); });
-  thread.join();
-  EXPECT_TRUE(thread.grant().pinned) << thread.grant().sentence;
-  EXPECT_EQ(seen, static_cast<int>(core));
 }
 
 TEST(Thread, ACoreThatIsNotThereIsSaidAndTheWorkRunsAnyway) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "burr/base/hash.h"
 #include "burr/math/elementary.h"
@@ -23,7 +24,7 @@ bool fine(const Milling& now, double dt) BURR_RT {
 }
 
 double run_out(double spindle_rad_s) BURR_RT {
-  return std::min(std::abs(spindle_rad_s), kFastestSpindle) / (2 * M_PI);
+  return std::min(std::abs(spindle_rad_s), kFastestSpindle) / (2 * std::numbers::pi);
 }
 
 double held(double value, double low, double high, double otherwise) {
@@ -85,7 +86,7 @@ void Vibration::tune(double frequency, double dt) BURR_RT {
   if (frequency == tuned_to_ && dt == tuned_dt_) return;
   tuned_to_ = frequency;
   tuned_dt_ = dt;
-  const double angle = 2 * M_PI * frequency * dt;
+  const double angle = 2 * std::numbers::pi * frequency * dt;
   const double width = math::sine(angle) / (2 * settings_.quality);
   back_1_ = 2 * math::cosine(angle) / (1 + width);
   back_2_ = (1 - width) / (1 + width);

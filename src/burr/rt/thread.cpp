@@ -1,16 +1,8 @@
 #include "burr/rt/thread.h"
 
-#include <pthread.h>
-#include <sched.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <condition_variable>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -27,67 +19,6 @@ __attribute__((noinline)) void touch_stack(std::size_t bytes) {
   static_cast<void>(chunk[0]);  // read after the call: keeps this frame, no tail call
 }
 
-std::string reason(int code) { return std::generic_category().message(code); }
-
-// Keeps touched pages in RAM. ONFAULT: untouched pages are not loaded. If there is a limit and no
-// right to exceed it, locking future memory would make later allocations fail: then it is not done.
-bool lock_memory(std::string& why) {
-  rlimit limit = {};
-  getrlimit(RLIMIT_MEMLOCK, &limit);
-  if (geteuid() != 0 && limit.rlim_cur != RLIM_INFINITY) {
-    why = "the limit on locked memory is not `unlimited`";
-    return false;
-  }
-  if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) return true;
-  why = reason(errno);
-  return false;
-}
-
-ThreadGrant ask(const ThreadRequest& request) {
-  ThreadGrant grant;
-  std::string missing;
-  const auto miss = [&missing](const std::string& text) {
-    if (!missing.empty()) missing += "; ";
-    missing += text;
-  };
-
-  if (request.core >= 0) {
-    int code = EINVAL;
-    if (request.core < CPU_SETSIZE) {
-      cpu_set_t cores;
-      CPU_ZERO(&cores);
-      CPU_SET(static_cast<unsigned>(request.core), &cores);
-      code = pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
-    }
-    grant.pinned = code == 0;
-    if (code != 0) miss("not kept on core " + std::to_string(request.core) + ": " + reason(code));
-  }
-  if (request.realtime) {
-    sched_param param = {};
-    param.sched_priority = std::clamp(request.priority, 1, 99);
-    const int code = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
-    grant.fifo = code == 0;
-    if (code != 0) miss("ordinary priority instead of SCHED_FIFO: " + reason(code));
-    std::string why;
-    grant.locked = lock_memory(why);
-    if (!grant.locked) miss("memory not locked: " + why);
-  }
-
-  grant.sentence = request.name + ": ";
-  if (missing.empty()) {
-    grant.sentence += !request.realtime
-                          ? std::string("ordinary thread")
-                          : "SCHED_FIFO " + std::to_string(request.priority) + ", memory locked";
-    if (grant.pinned) grant.sentence += ", core " + std::to_string(request.core);
-  } else {
-    grant.sentence += missing;
-    if (request.realtime)
-      grant.sentence +=
-          " (ticks may come late; docs/understand/realtime.md says how to allow it for your user)";
-  }
-  return grant;
-}
-
 }  // namespace
 
 struct Thread::Work {
@@ -102,10 +33,8 @@ Thread::Thread(const ThreadRequest& request, std::function<void()> work)
     : work_(std::make_unique<Work>()) {
   Work& shared = *work_;
   shared.thread = std::thread([&shared, request, work = std::move(work)] {
-    pthread_setname_np(pthread_self(), request.name.substr(0, 15).c_str());
-    ThreadGrant grant = ask(request);
-    // the default stack is 8 MiB; leaves room for the work itself
-    touch_stack(std::min<std::size_t>(request.stack_bytes, 4 * 1024 * 1024));
+    ThreadGrant grant = ask_for(request);
+    touch_stack(std::min(request.stack_bytes, kMostStack));
     {
       const std::lock_guard lock(shared.mutex);
       shared.grant = std::move(grant);
@@ -131,28 +60,6 @@ void on_threads(int count, const std::function<void(int)>& work) {
   for (int n = 1; n < count; ++n) others.emplace_back([&work, n] { work(n); });
   work(0);
   for (std::thread& other : others) other.join();
-}
-
-NormalPriority::NormalPriority() {
-  int policy = SCHED_OTHER;
-  sched_param param = {};
-  if (pthread_getschedparam(pthread_self(), &policy, &param) != 0 || policy != SCHED_FIFO) return;
-  const sched_param none = {};
-  if (pthread_setschedparam(pthread_self(), SCHED_OTHER, &none) == 0)
-    priority_ = param.sched_priority;
-}
-
-NormalPriority::~NormalPriority() {
-  if (priority_ == 0) return;
-  sched_param param = {};
-  param.sched_priority = priority_;
-  static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_FIFO, &param));
-}
-
-bool has_realtime_priority() {
-  int policy = SCHED_OTHER;
-  sched_param param = {};
-  return pthread_getschedparam(pthread_self(), &policy, &param) == 0 && policy == SCHED_FIFO;
 }
 
 }  // namespace burr::rt

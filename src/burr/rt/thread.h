@@ -25,7 +25,7 @@ struct ThreadRequest {
 
 // What was granted of the request.
 struct ThreadGrant {
-  bool fifo = false;     // runs under SCHED_FIFO
+  bool fifo = false;     // runs before ordinary threads: SCHED_FIFO; on Windows time-critical
   bool locked = false;   // memory that was touched once stays in RAM
   bool pinned = false;   // runs on the requested core only
   std::string sentence;  // "servo: SCHED_FIFO 80, memory locked", or what is missing and the cure
@@ -43,6 +43,11 @@ class Thread {
   [[nodiscard]] const ThreadGrant& grant() const;
 
  private:
+  // Each system has its own (thread_rights*.cpp). Asks for what the calling thread is to have; never fails.
+  static ThreadGrant ask_for(const ThreadRequest& request);
+  // At most so much of a stack is touched ahead: half of what a thread gets there, which leaves room for the work.
+  static const std::size_t kMostStack;
+
   struct Work;
   std::unique_ptr<Work> work_;
 };
@@ -64,7 +69,7 @@ class NormalPriority {
   [[maybe_unused]] int priority_ = 0;  // of SCHED_FIFO before; 0: it was normal
 };
 
-// True if the calling thread runs under SCHED_FIFO.
+// True if the calling thread runs under SCHED_FIFO (on Windows: time-critical).
 [[nodiscard]] bool has_realtime_priority();
 
 }  // namespace burr::rt

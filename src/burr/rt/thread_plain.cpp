@@ -27,10 +27,4 @@ void on_threads(int count, const std::function<void(int)>& work) {
   for (int n = 0; n < count; ++n) work(n);
 }
 
-NormalPriority::NormalPriority() = default;
-NormalPriority::~NormalPriority() {  // there is nothing to give back
-}
-
-bool has_realtime_priority() { return false; }
-
 }  // namespace burr::rt

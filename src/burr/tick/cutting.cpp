@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "burr/edit/laws/thesis.h"
 #include "burr/math/elementary.h"
@@ -75,14 +76,14 @@ double Cutting::friction() const BURR_RT {
 
 // Can a force change from tick to tick as fast as one tooth follows the other?
 bool Cutting::tooth_is_carried() const BURR_RT {
-  return teeth() * std::abs(spindle_.speed()) * dt_ < kCarried * 2 * M_PI;
+  return teeth() * std::abs(spindle_.speed()) * dt_ < kCarried * 2 * std::numbers::pi;
 }
 
 // Pressing and being dragged aside feed each other in a hole that fits the burr, and would whirl a
 // light device about: so the drag follows slowly, and goes with the push.
 Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
   const haptics::Touch& touch = hand_.touch();
-  const double share = 1 - math::exponential(-2 * M_PI * settings_.drag_hz * dt_);
+  const double share = 1 - math::exponential(-2 * std::numbers::pi * settings_.drag_hz * dt_);
   drag_ += share * (settings_.drag_gain * now_.drag - drag_);
   moment_ += share * (settings_.drag_gain * cut_moment_ - moment_);
   drag_share_ = 0;
@@ -92,7 +93,7 @@ Vec3 Cutting::drag(const Vec3& touched) BURR_RT {
   drag_ratio_ += share * (ratio - drag_ratio_);
   // once per tooth, where the ticks are quick enough to carry it
   const double tooth = teeth() * spindle_.speed() * dt_;  // [rad] a tick
-  tooth_phase_ = std::remainder(tooth_phase_ + tooth, 2 * M_PI);
+  tooth_phase_ = std::remainder(tooth_phase_ + tooth, 2 * std::numbers::pi);
   if (!touch.touching) return Vec3::Zero();
 
   const Vec3 along = drag_ - math::dot(drag_, touch.normal) * touch.normal;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "burr/math/elementary.h"
 #include "burr/math/sums.h"
@@ -18,7 +19,7 @@ Hand::Hand(device::Device& device, haptics::Proxy& constraint, const haptics::Fo
       force_(force),
       method_(&constraint),
       dt_(1.0 / settings.rate_hz),
-      blend_(1 - math::exponential(-2 * M_PI * settings.velocity_filter_hz * dt_)),
+      blend_(1 - math::exponential(-2 * std::numbers::pi * settings.velocity_filter_hz * dt_)),
       guarded_(settings.guarded),
       turned_(settings.turned && device.spec().peak_torque > 0),
       guard_({.slack = settings.guard_slack,

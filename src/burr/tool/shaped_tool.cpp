@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace burr::tool {
 namespace {
@@ -40,7 +41,7 @@ double full_speed(const Cutter& cutter) {
       return cutter.speed_rad_s;
     case Drive::oscillating:
     case Drive::reciprocating:
-      return 2 * M_PI * cutter.cycles_hz;
+      return 2 * std::numbers::pi * cutter.cycles_hz;
     case Drive::pushed:
     case Drive::struck:
       break;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "burr/math/elementary.h"
 #include "burr/math/sums.h"
@@ -62,15 +63,16 @@ double where(double wanted, const Value& value, const Slope& slope) BURR_RT {
 Chips::Chips(const volume::Bone& bone) : bone_(bone) {
   const auto cosine_of = [](double n) {
     const double share = n / kPoints;
-    return math::cosine(0.5 * M_PI * share * std::sqrt(share));
+    return math::cosine(0.5 * std::numbers::pi * share * std::sqrt(share));
   };
   for (int n = 0; n < kPoints; ++n) {
     Point& point = points_[static_cast<std::size_t>(n)];
     point.cosine = cosine_of(n + 0.5);
-    const double sine = std::sqrt(1 - point.cosine * point.cosine), beta = 2 * M_PI * kGolden * n;
+    const double sine = std::sqrt(1 - point.cosine * point.cosine),
+                 beta = 2 * std::numbers::pi * kGolden * n;
     point.u = sine * math::cosine(beta);
     point.v = sine * math::sine(beta);
-    point.area = 2 * M_PI * (cosine_of(n) - cosine_of(n + 1));
+    point.area = 2 * std::numbers::pi * (cosine_of(n) - cosine_of(n + 1));
   }
 }
 
@@ -107,7 +109,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       if (tissue.kind != volume::TissueKind::solid) continue;
       const Vec3 sliding = axis.cross(way);
       const double far = std::max(math::norm(sliding), pole);  // from the axis, over r
-      const double edge = in_bone * piece * burr.teeth / (2 * M_PI * r * far);
+      const double edge = in_bone * piece * burr.teeth / (2 * std::numbers::pi * r * far);
       ring.edge += edge;
       ring.cosine += edge * cosine;
       ring.arm += edge * r * far;
@@ -132,7 +134,7 @@ void Chips::gather(const tool::Burr& burr, const Vec3& centre, const Vec3& norma
       }
       // the piece has a width: near the shaft it spans many teeth
       const double span = 0.5 * burr.teeth * std::sqrt(piece) / (r * across);
-      const double seen = span < M_PI ? edge * math::sine(span) / span : 0.0;
+      const double seen = span < std::numbers::pi ? edge * math::sine(span) / span : 0.0;
       ring.swing_re += seen * re;
       ring.swing_im += seen * im;
     }
@@ -190,7 +192,7 @@ Cutting Chips::step(const tool::Burr& burr, const Vec3& centre, const Vec3& norm
       });
     });
 
-  const double feed_speed = feed_ * burr.teeth * spin.speed / (2 * M_PI);  // [m/s]
+  const double feed_speed = feed_ * burr.teeth * spin.speed / (2 * std::numbers::pi);  // [m/s]
   rate_ = feed_speed * sum([](const Ring& ring) { return ring.area; });
   cutting.energy = dt * feed_speed * sum([](const Ring& ring) { return ring.price; });
   cutting.torque = torque_at(feed_);

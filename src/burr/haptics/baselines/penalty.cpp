@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 
 #include "burr/haptics/baselines/ball_points.h"
 #include "burr/math/sums.h"
@@ -47,7 +48,8 @@ Touch PenaltyProxy::step(const Vec3& hand) BURR_RT {
   const volume::Grid& grid = bone_.grid();
   const Vec3 x = grid.grid_from_world(hand);
   const double r = radius_ / grid.voxel;
-  const double each = 4 * M_PI * r * r / kPoints, q = each / (M_PI * r * kSinks * kSinks);
+  const double each = 4 * std::numbers::pi * r * r / kPoints,
+               q = each / (std::numbers::pi * r * kSinks * kSinks);
   Touch touch;
   touch.candidates = kPoints;
   int pressed = 0;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "burr/math/elementary.h"
@@ -73,7 +74,7 @@ class Sensor {
       : step_(axis.encoder_step),
         dt_(1 / axis.rate_hz),
         blend_(axis.velocity_filter_hz > 0
-                   ? 1 - math::exponential(-2 * M_PI * axis.velocity_filter_hz * dt_)
+                   ? 1 - math::exponential(-2 * std::numbers::pi * axis.velocity_filter_hz * dt_)
                    : 1.0),
         last_(counted(place)) {}
 
