@@ -13,6 +13,7 @@
 #include "burr/record/mcap/crc32.h"
 #include "burr/record/session_info.h"
 #include "burr/record/view.h"
+#include "burr/tool/limits.h"
 
 namespace burr::record {
 namespace {
@@ -336,7 +337,7 @@ bool agree(std::span<const tick::TickRow> rows) {
 
 // A file may say anything.
 bool possible(const tool::ToolState& tool) {
-  constexpr int kMostTools = 64;
+  constexpr int kLast = static_cast<int>(tool::kMostTools) - 1;
   constexpr double kWidest = 0.05;  // [m]
   const auto within = [](int value, int least, int most) {
     return value >= least && value <= most;
@@ -344,7 +345,7 @@ bool possible(const tool::ToolState& tool) {
   return tool.radius >= 0 && tool.radius <= kWidest && std::isfinite(tool.full_speed) &&
          within(static_cast<int>(tool.kind), 0, 1) &&
          within(static_cast<int>(tool.mode), 0, tool::kModes - 1) &&
-         within(tool.mirror_axis, -1, 2) && within(tool.number, -1, kMostTools - 1);
+         within(tool.mirror_axis, -1, 2) && within(tool.number, -1, kLast);
 }
 
 // ---- FileDescriptorSet (google/protobuf/descriptor.proto), written by hand

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/record/private_text.h"
+#include "burr/tool/limits.h"
 #include "burr/tool/shape_grid.h"
 
 namespace burr::record {
@@ -165,7 +166,7 @@ std::string tools_to_json(const std::vector<tool::ShapedTool>& tools) {
 
 bool tools_from_json(std::string_view text, std::vector<tool::ShapedTool>& tools) {
   const json list = json::parse(text, nullptr, false);
-  if (!list.is_array() || list.size() > kMostTools) return false;
+  if (!list.is_array() || list.size() > tool::kMostTools) return false;
   for (const json& one : list)
     if (!tool_from(one, tools.emplace_back())) return false;
   return true;

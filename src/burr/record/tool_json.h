@@ -12,8 +12,6 @@
 
 namespace burr::record {
 
-inline constexpr std::size_t kMostTools = 64;  // of a session
-
 [[nodiscard]] std::string tools_to_json(const std::vector<tool::ShapedTool>& tools);
 // False: no list of tools, a tool without a part that cuts, sizes that describe no body, or too many.
 [[nodiscard]] bool tools_from_json(std::string_view text, std::vector<tool::ShapedTool>& tools);

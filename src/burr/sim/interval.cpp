@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "burr/sim/session.h"
+#include "burr/tick/setting_table.h"
 
 namespace burr::sim {
 namespace {
@@ -115,6 +116,7 @@ Status Wall::check_device(const device::DeviceSpec& spec, const WallProperties& 
 Result<people::Felt> Wall::show(device::Device& hand, const WallProperties& shown, double seconds,
                                 const std::function<bool()>& enough) {
   if (Status can = check_device(hand.spec(), shown); !can) return can.error();
+  if (Status good = tick::check_settings(servo_of(settings_, shown)); !good) return good.error();
   const auto ticks = static_cast<std::size_t>(
       std::ceil(std::min<double>(seconds, kMostSeconds) * settings_.rate_hz));
   people::Felt felt;

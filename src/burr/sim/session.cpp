@@ -9,6 +9,8 @@
 
 #include "burr/base/check.h"
 #include "burr/rt/clock.h"
+#include "burr/tick/setting_table.h"
+#include "burr/tool/limits.h"
 
 namespace burr::sim {
 namespace {
@@ -33,7 +35,10 @@ Status check_thickness(const char* option, const tool::ShapedTool& tool, double 
 }
 
 Status check_tools(const tick::ServoSettings& servo, double voxel) {
-  if (servo.tool < -1 || servo.tool >= static_cast<int>(servo.tools.size()))
+  if (servo.tools.size() > tool::kMostTools)
+    return error(Trouble::usage, fmt::format("a session takes at most {} tools, not {}",
+                                             tool::kMostTools, servo.tools.size()));
+  if (servo.tool >= static_cast<int>(servo.tools.size()))
     return error(Trouble::internal, "the session has no tool of this number");
   for (const tool::ShapedTool& tool : servo.tools)
     if (Status good = check_thickness("--tool", tool, voxel); !good.ok()) return good;
@@ -64,13 +69,9 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
                                                const SessionSettings& settings,
                                                Progress& progress) {
   const tick::ServoSettings& servo = settings.servo;
+  if (Status good = tick::check_settings(servo); !good) return good.error();
+  if (Status good = tick::check_settings(settings.surface); !good) return good.error();
   const double h = bone->grid().voxel, r = servo.burr.radius;
-  if (!(servo.rate_hz >= 500 && servo.rate_hz <= 10000))
-    return error(Trouble::usage,
-                 fmt::format("--rate {} is out of range; use 500 to 10000 Hz", servo.rate_hz));
-  if (!(2 * r >= tool::kSmallestDiameter - 1e-9 && 2 * r <= tool::kLargestDiameter + 1e-9))
-    return error(Trouble::usage,
-                 fmt::format("--burr-mm {:.2f} is out of range; use 0.6 to 7 mm", 2e3 * r));
   if (r < 2 * h)
     return error(
         Trouble::usage,
@@ -79,12 +80,6 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
                     "work, if memory is short), or --burr-mm {:.2f} or larger",
                     2e3 * r, 1e3 * h, std::floor(1e6 * r / 2) / 1e3, std::ceil(4e5 * h) / 100));
   if (Status good = check_tools(servo, h); !good.ok()) return good.error();
-  if (!(servo.force.stiffness > 0 && std::isfinite(servo.force.stiffness)))
-    return error(Trouble::usage,
-                 fmt::format("a stiffness of {} N/m is not possible; use, for example, 1000",
-                             servo.force.stiffness));
-  if (!(std::abs(servo.spindle_rad_s) < 1e5))
-    return error(Trouble::usage, "--rpm is out of range; use -400000 to 400000");
 
   if (settings.law) {
     if (settings.realtime)
@@ -95,6 +90,7 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
   if (!opened) return opened.error();
   std::unique_ptr<Session> session(new Session(std::move(bone), std::move(device), settings));
   const device::DeviceSpec& spec = session->device_->spec();
+  if (Status good = tick::check_settings(spec); !good) return good.error();
   tick::ServoSettings capped = servo;
   capped.force.stiffness = tick::coupling_of(spec, servo).stiffness;
   capped.force.damping = std::min(servo.force.damping, spec.max_damping);
@@ -127,8 +123,13 @@ Status Session::add_second_hand(std::unique_ptr<device::Device> device,
     if (Status good = check_thickness("--second-tool", *settings.tool, bone_->grid().voxel);
         !good.ok())
       return good;
+  if (Status good = tick::check_settings(settings); !good) return good;
   const Status opened = device->open();
   if (!opened) return opened;
+  if (Status good = tick::check_settings(device->spec()); !good) {
+    device->close();
+    return good;
+  }
   second_device_ = std::move(device);
   second_device_->stop_pacing();
   second_ = std::make_unique<tick::SecondHand>(servo_->shared(), *second_device_, settings);

@@ -78,7 +78,7 @@ struct Outcome {
 
 class Session {
  public:
-  // Checks the settings against bone and device. Errors name the option to change.
+  // Checks the settings: tick/setting_table.h, and against bone and device. An error names one.
   [[nodiscard]] static Result<std::unique_ptr<Session>> make(std::unique_ptr<volume::Bone> bone,
                                                              std::unique_ptr<device::Device> device,
                                                              const SessionSettings& settings,
