@@ -114,7 +114,7 @@ class Divider {
     std::size_t n = slices.empty() ? 0 : 1;
     double last = slices.empty() ? 0 : slices.front().along_mm;
     for (const Slice& s : slices)
-      if (s.along_mm - last > kSamePlace) {
+      if (s.along_mm - last > kSameSlicePlace) {
         ++n;
         last = s.along_mm;
       }
@@ -125,7 +125,7 @@ class Divider {
     std::size_t most = 0, here = 0;
     double last = -1e300;
     for (const Slice& s : slices) {
-      if (s.along_mm - last > kSamePlace) {
+      if (s.along_mm - last > kSameSlicePlace) {
         here = 0;
         last = s.along_mm;
       }
@@ -155,7 +155,9 @@ class Divider {
   static bool meet_at_their_ends(const Slices& all, const Parts& parts) {
     constexpr double kOwn = 0.7;  // share of its places that a part has for itself
     std::map<long, int> users;    // of a place
-    const auto place = [](const Slice& s) { return std::lround(s.along_mm / (10 * kSamePlace)); };
+    const auto place = [](const Slice& s) {
+      return std::lround(s.along_mm / (10 * kSameSlicePlace));
+    };
     for (const auto& part : parts) {
       std::set<long> own;
       for (const Slice& s : part.second) own.insert(place(s));
@@ -189,12 +191,12 @@ class Divider {
 
   void keep_one_of_each(Slices& slices) const {
     std::stable_sort(slices.begin(), slices.end(), [&](const Slice& a, const Slice& b) {
-      if (std::abs(a.along_mm - b.along_mm) > 0.1 * kSamePlace) return a.along_mm < b.along_mm;
+      if (std::abs(a.along_mm - b.along_mm) > 0.1 * kSameSlicePlace) return a.along_mm < b.along_mm;
       return series_.files[a.file].instance < series_.files[b.file].instance;
     });
     slices.erase(std::unique(slices.begin(), slices.end(),
                              [](const Slice& a, const Slice& b) {
-                               return std::abs(a.along_mm - b.along_mm) < kSamePlace;
+                               return std::abs(a.along_mm - b.along_mm) < kSameSlicePlace;
                              }),
                  slices.end());
   }
@@ -271,7 +273,7 @@ class Divider {
   bool follow(const Slices& slices, Value value, const std::string& part,
               std::vector<SliceGroup>& out) const {
     if (!stated(slices, value)) return false;
-    const auto place = [](const Slice& s) { return std::lround(s.along_mm / kSamePlace); };
+    const auto place = [](const Slice& s) { return std::lround(s.along_mm / kSameSlicePlace); };
     Slices sorted = slices;
     std::stable_sort(sorted.begin(), sorted.end(),
                      [&](const Slice& a, const Slice& b) { return value(a) < value(b); });
@@ -380,7 +382,7 @@ class Divider {
       for (const Slice& s : group.slices) {
         if (!parts.back().empty()) {
           const double step = s.along_mm - parts.back().back().along_mm;
-          if (gap > kSamePlace && (step > 25 * gap || (step > 30 && step > 3 * gap)))
+          if (gap > kSameSlicePlace && (step > 25 * gap || (step > 30 && step > 3 * gap)))
             parts.emplace_back();
         }
         parts.back().push_back(s);

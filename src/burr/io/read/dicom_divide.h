@@ -13,7 +13,7 @@ namespace burr::io {
 
 using Slices = std::vector<Slice>;
 
-constexpr double kSamePlace = 1e-3;  // slices nearer to each other lie at one place [mm]
+constexpr double kSameSlicePlace = 1e-3;  // slices nearer to each other lie at one place [mm]
 
 struct SliceGroup {
   Slices slices;

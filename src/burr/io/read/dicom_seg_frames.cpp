@@ -90,9 +90,9 @@ Result<SegStack> seg_stack_of(const DicomHeader& h, const std::string& file, Sca
   for (const DicomFrame& frame : h.frames) along.push_back(normal.dot(frame.position_mm));
   places = along;
   std::sort(places.begin(), places.end());
-  constexpr double kOnePlace = 1e-3;  // [mm]
+  constexpr double kSamePlace = 1e-3;  // [mm]
   places.erase(std::unique(places.begin(), places.end(),
-                           [](double a, double b) { return b - a < kOnePlace; }),
+                           [](double a, double b) { return b - a < kSamePlace; }),
                places.end());
   const double start = places.front();
   for (double& place : places) place -= start;

@@ -92,7 +92,7 @@ bool set_places(const Series& series, Slices& slices, Order& order) {
       low = std::min(low, s.along_mm);
       high = std::max(high, s.along_mm);
     }
-    return slices.size() == 1 || high - low > kSamePlace;
+    return slices.size() == 1 || high - low > kSameSlicePlace;
   };
   const bool placed = all([](const DicomFrame& f) { return f.has_position; });
   if (placed && set(Order::positions,
@@ -129,7 +129,7 @@ std::size_t drop_copies(const Series& series, Slices& slices) {
                                 const DicomPhase& p = frame_of(series, s).phase;
                                 return !h.sop_instance.empty() &&
                                        !seen.insert({h.sop_instance, s.frame, h.instance,
-                                                     std::lround(s.along_mm / kSamePlace),
+                                                     std::lround(s.along_mm / kSameSlicePlace),
                                                      h.pixels_length, p.time_s, p.acquisition})
                                             .second;
                               }),
