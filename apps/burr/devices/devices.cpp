@@ -29,7 +29,7 @@ struct Options {
 
 // One possible device: opened and closed, described as JSON and as text.
 Status tell(const workshop::HandKind& kind, const std::string& name,
-            const workshop::DeviceBook& book, nlohmann::json& all, bool json) {
+            const workshop::DeviceBook& book, nlohmann::json& all, bool as_json) {
   workshop::HandRequest request;
   request.device = name;
   auto device = workshop::make_hand(request);
@@ -38,7 +38,7 @@ Status tell(const workshop::HandKind& kind, const std::string& name,
   if (!opened) {
     all.push_back(
         {{"name", name}, {"kind", kind.name}, {"there", false}, {"why", opened.error().text}});
-    if (!json)
+    if (!as_json)
       fmt::print("{:<16} {}\n                 not found: {}\n", name, kind.makes,
                  opened.error().text);
     return fine();
@@ -64,7 +64,7 @@ Status tell(const workshop::HandKind& kind, const std::string& name,
                  {"trouble", trouble},
                  {"scale", preferences.mapping.scale},
                  {"max_force_N", preferences.max_force_n}});
-  if (json) return fine();
+  if (as_json) return fine();
   fmt::print("{:<16} {}: senses {} axes, drives {}; {:.1f} N peak ({:.2f} N continuous){}\n", name,
              workshop::id_of(spec), spec.sensed, spec.actuated, spec.peak_force,
              spec.continuous_force,
