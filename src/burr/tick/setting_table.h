@@ -1,6 +1,5 @@
 // tick/setting_table.h - every setting of a session that a recording keeps, each once: its name, unit,
-// range and meaning, and how to reach it. Command line, cases, Python, recordings and docs/settings.md are
-// loops over it.
+// range and meaning, and how to reach it. Recordings are loops over it, and every session checks it.
 //
 //     for (const Setting<ServoSettings>& one : servo_settings()) one.set(servo, one.get(other));
 //     if (Status good = check_settings(servo); !good) return good.error();
@@ -84,7 +83,7 @@ struct Setting {
   void (*set)(Of&, double);  // of a value in About::recorded
 };
 
-// In the order of docs/settings.md. The limits of the force, which both hands have, are apart.
+// In the order of recordings. The limits of the force, which both hands have, are apart.
 [[nodiscard]] std::span<const Setting<ServoSettings>> servo_settings();
 [[nodiscard]] std::span<const Setting<haptics::LimitSettings>> limit_settings();
 [[nodiscard]] std::span<const Setting<volume::IsoSettings>> surface_settings();
