@@ -168,10 +168,10 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # AddressSanitizer and UndefinedBehaviorSanitizer: code that reads files, and code that moves
   # memory. clang++ compiles it in a third of g++'s time, and the fuzzers below use the same
   # library. Sanitized code is several times slower, so the longest random tests run in the release
-  # build only. Rooms that hand on what others have read, and whose libraries are large (Boost.Beast,
-  # databases), are for the full tier.
-  set(asan_rooms base rt math tool volume edit haptics surface io importing record tick)
-  set(asan_glue_rooms device school serve)
+  # build only. The rooms that compute, and those whose libraries are large (Boost.Beast, databases), are
+  # for the full tier.
+  set(asan_rooms base volume edit surface io importing record)
+  set(asan_more_rooms rt math tool haptics tick device school serve)
   set(asan_filter_haptics "-*Million*:*Random*")
   set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads
                                    # the same files
@@ -180,22 +180,22 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set(asan_filter_school "-*Server*")  # the release build talks to the server; libpq keeps memory to the end
   set(asan_filter_record "-Player.OpensAnyMomentOfTenMinutesAtOnce")  # long, and shorter tests take the same way
   list(TRANSFORM asan_rooms PREPEND test_ OUTPUT_VARIABLE asan_targets)
-  list(TRANSFORM asan_glue_rooms PREPEND test_ OUTPUT_VARIABLE asan_glue_targets)
+  list(TRANSFORM asan_more_rooms PREPEND test_ OUTPUT_VARIABLE asan_more_targets)
   burr_other_build(asan ${asan_targets} same_bits fuzzers)
   burr_same_bits(asan pocket plunge scan)
   # in the same folder, after the others
-  add_test(NAME asan.glue_build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_SOURCE_DIR}/build/asan --target ${asan_glue_targets})
-  set_tests_properties(asan.glue_build PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP asan_glue_programs
+  add_test(NAME asan.more_build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_SOURCE_DIR}/build/asan --target ${asan_more_targets})
+  set_tests_properties(asan.more_build PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP asan_more_programs
     PROCESSORS ${BURR_PROCESSORS} TIMEOUT 3000 LABELS long)
-  foreach(room ${asan_rooms} ${asan_glue_rooms})
+  foreach(room ${asan_rooms} ${asan_more_rooms})
     set(filter "*")
     if(DEFINED asan_filter_${room})
       set(filter "${asan_filter_${room}}")
     endif()
     burr_other_test(asan ${room} "${filter}")
   endforeach()
-  foreach(room ${asan_glue_rooms})
-    set_property(TEST asan.${room} APPEND PROPERTY FIXTURES_REQUIRED asan_glue_programs)
+  foreach(room ${asan_more_rooms})
+    set_property(TEST asan.${room} APPEND PROPERTY FIXTURES_REQUIRED asan_more_programs)
   endforeach()
 
   set(tsan_options -DBURR_READER=OFF)
@@ -256,7 +256,7 @@ endif()
 # this is left out, and the tests begin at once.
 add_test(NAME other_builds COMMAND ${CMAKE_COMMAND} -E true)
 set_tests_properties(other_builds PROPERTIES LABELS long)
-foreach(build asan.build asan.glue_build tsan.build clang.build portable.aarch64 portable.windows portable.web)
+foreach(build asan.build asan.more_build tsan.build clang.build portable.aarch64 portable.windows portable.web)
   if(TEST ${build})
     set_property(TEST other_builds APPEND PROPERTY DEPENDS ${build})
   endif()

@@ -127,7 +127,7 @@ struct OfServo {
               "another for comparison")
            .as(in_session(typed("touch"))),
        BURR_AT(touch)},
-      {number("stiffness_n_per_m", "N/m", {1, 1e5},
+      {number("stiffness_n_per_m", "N/m", {1, 1e6},
               "stiffness of the spring to the hand, limited by the device")
            .read_from(0, 1e6)
            .as(in_session(typed("stiffness_n_per_m", "N/m"))),
@@ -275,7 +275,7 @@ struct OfSecond {
   using Of = SecondHandSettings;
   static constexpr Setting<Of> kAll[] = {
       {number("radius_m", "m", {1e-5, 0.05}, "radius of the ball at its tip"), BURR_AT(radius)},
-      {number("stiffness_n_per_m", "N/m", {1, 1e5}, "stiffness of the spring to the hand")
+      {number("stiffness_n_per_m", "N/m", {1, 1e6}, "stiffness of the spring to the hand")
            .read_from(0, 1e6),
        BURR_AT(force.stiffness)},
       {number("damping_n_s_per_m", "N s/m", {0, 1e4}, "damping of a tip that comes closer"),
