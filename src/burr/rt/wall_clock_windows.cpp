@@ -28,8 +28,7 @@ class Timer {
   Timer(const Timer&) = delete;
   Timer& operator=(const Timer&) = delete;
 
-  // Waits for about this long. It is told how long, not until when: Windows' absolute times are those of the time of day,
-  // which jumps.
+  // Waits for about this long. The time given to Windows is relative: its absolute times follow the time of day, which jumps.
   void wait(std::int64_t ns) const BURR_RT {
     LARGE_INTEGER due = {};
     due.QuadPart = -((ns + 99) / 100);  // below zero: from now on; in steps of 100 ns

@@ -1,6 +1,5 @@
-// What shares a series but not a volume is told apart by what the files state: size and orientation,
-// kernel, energy, phase, acquisition, time; then blocks of slices that lie far from each other. Slices
-// of two phases are never mixed.
+// One series may hold several volumes. They are divided by what the files state (kernel, energy, phase,
+// acquisition, time), then where slices lie far from each other. Slices of two phases are never mixed.
 #include "burr/io/read/dicom_divide.h"
 
 #include <fmt/core.h>

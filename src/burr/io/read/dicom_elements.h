@@ -14,7 +14,7 @@ namespace burr::io {
 using Tag = std::uint32_t;                  // group << 16 | element
 using Values = std::map<Tag, std::string>;  // raw bytes of the wanted elements
 
-// The elements of patient and study that a walk keeps where it is asked to.
+// Patient and study: a walk keeps these elements only if DicomWalker::study is set.
 [[nodiscard]] std::span<const Tag> dicom_tags_of_study();
 
 class DicomWalker {
