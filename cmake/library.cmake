@@ -160,7 +160,7 @@ add_library(burr_serve STATIC ${serve_sources})
 target_link_libraries(burr_serve PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
 add_library(burr_school STATIC ${school_sources})
 target_link_libraries(burr_school PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json
-  PkgConfig::SQLITE PkgConfig::POSTGRES)
+  PkgConfig::SQLITE PkgConfig::POSTGRES OpenSSL::Crypto)
 add_library(burr_lrs STATIC ${lrs_sources})
 target_link_libraries(burr_lrs PUBLIC burr_school PRIVATE burr burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
 burr_common_headers(burr_school <fmt/format.h>)

@@ -14,14 +14,6 @@
 
 namespace burr::test {
 
-inline std::string sha_of(const std::string& text) {
-  school::Sha1 sha;
-  sha.add(text);
-  std::string out;
-  for (const unsigned byte : sha.finish()) out += fmt::format("{:02x}", byte);
-  return out;
-}
-
 // what: makes the recording another one
 inline school::SessionRecord made_session(const std::string& learner, const std::string& what,
                                           std::int64_t started_ms = 1'700'000'000'000) {
@@ -38,7 +30,7 @@ inline school::SessionRecord made_session(const std::string& learner, const std:
   one.device_max_n = 3.3;
   one.voxel_um = 250;
   one.engine = "0.1.0";
-  one.recording_hash = sha_of(learner + what);
+  one.recording_hash = school::sha1(learner + what);
   one.scores = {{"product",
                  66.5,
                  1,

@@ -106,7 +106,7 @@ SessionRecord session_of(int station, int hour, int number) {
       made_session("kestrel-27", what, 1'700'000'000'000 + hour * 3'600'000LL + number * 600'000LL);
   // text that cannot be packed, so that the table grows
   std::string noise;
-  for (int n = 0; n < 46; ++n) noise += test::sha_of(what + std::to_string(n));
+  for (int n = 0; n < 46; ++n) noise += school::sha1(what + std::to_string(n));
   for (ItemRecord& item : one.scores[0].items) item.evidence_json = "{\"noise\":\"" + noise + "\"}";
   return one;
 }

@@ -22,7 +22,7 @@ namespace {
 using Law = std::shared_ptr<workshop::LawFile>;
 using Random = std::mt19937_64;
 
-constexpr int kRandom = 1'000'000, kTwice = 100'000, kTimed = 100'000;
+constexpr int kRandom = 1'000'000, kTwice = 100'000, kTimed = 100'000, kTimedRuns = 5;
 constexpr double kSeconds = 10;  // that a hand presses
 
 // Opened before (in check()), so that it opens now too.
@@ -162,17 +162,20 @@ nlohmann::json twice(const LawTrial& trial) {
   return {{"same_state", begun && anew == first}, {"same_copy", copy == first}};
 }
 
+// The least time of each call in several runs of the same calls is the law's own work: what else the computer did in the
+// meantime differs from run to run.
 nlohmann::json by_the_clock(const LawTrial& trial) {
   const Law law = opened(trial);
-  Random random(trial.seed);
-  std::vector<std::int64_t> took;
-  took.reserve(kTimed);
-  for (int n = 0; n < kTimed; ++n) {
-    const burr_law_in_v1 in = likely(random);
-    burr_law_out_v1 out = answer_to(in);
-    const std::int64_t before = rt::thread_cpu_ns();
-    static_cast<void>(law->answer(in, out));
-    took.push_back(rt::thread_cpu_ns() - before);
+  std::vector<std::int64_t> took(kTimed, std::numeric_limits<std::int64_t>::max());
+  for (int run = 0; run < kTimedRuns && law->begin(); ++run) {
+    Random random(trial.seed);
+    for (std::int64_t& least : took) {
+      const burr_law_in_v1 in = likely(random);
+      burr_law_out_v1 out = answer_to(in);
+      const std::int64_t before = rt::thread_cpu_ns();
+      static_cast<void>(law->answer(in, out));
+      least = std::min(least, rt::thread_cpu_ns() - before);
+    }
   }
   std::sort(took.begin(), took.end());
   const auto at = [&took](double share) {

@@ -1,12 +1,15 @@
 #include "burr/school/uuid.h"
 
 #include <fmt/format.h>
+#include <openssl/evp.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
+#include <array>
+#include <cstdint>
 #include <fstream>
+#include <memory>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "burr/base/printable.h"
@@ -28,66 +31,31 @@ std::string uuid_text(std::array<std::uint8_t, 16> bytes, unsigned version) {
                      all.substr(16, 4), all.substr(20));
 }
 
+// OpenSSL's SHA-1, of bytes that come piece by piece.
+class Sha1 {
+ public:
+  Sha1() : state_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    if (!state_ || EVP_DigestInit_ex(state_.get(), EVP_sha1(), nullptr) != 1)
+      throw std::runtime_error("OpenSSL has no SHA-1");
+  }
+  void add(std::string_view bytes) { EVP_DigestUpdate(state_.get(), bytes.data(), bytes.size()); }
+  [[nodiscard]] std::array<std::uint8_t, 20> finish() {
+    std::array<std::uint8_t, 20> out{};
+    EVP_DigestFinal_ex(state_.get(), out.data(), nullptr);
+    return out;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> state_;
+};
+
 }  // namespace
 
-void Sha1::block(const std::uint8_t* bytes) {
-  std::array<std::uint32_t, 80> w{};
-  for (std::size_t n = 0; n < 16; ++n)
-    w[n] = static_cast<std::uint32_t>(bytes[4 * n]) << 24U |
-           static_cast<std::uint32_t>(bytes[4 * n + 1]) << 16U |
-           static_cast<std::uint32_t>(bytes[4 * n + 2]) << 8U | bytes[4 * n + 3];
-  for (std::size_t n = 16; n < 80; ++n)
-    w[n] = std::rotl(w[n - 3] ^ w[n - 8] ^ w[n - 14] ^ w[n - 16], 1);
-  auto [a, b, c, d, e] = state_;
-  for (std::size_t n = 0; n < 80; ++n) {
-    std::uint32_t f = 0, k = 0;
-    if (n < 20) {
-      f = (b & c) | (~b & d);
-      k = 0x5A827999;
-    } else if (n < 40) {
-      f = b ^ c ^ d;
-      k = 0x6ED9EBA1;
-    } else if (n < 60) {
-      f = (b & c) | (b & d) | (c & d);
-      k = 0x8F1BBCDC;
-    } else {
-      f = b ^ c ^ d;
-      k = 0xCA62C1D6;
-    }
-    const std::uint32_t next = std::rotl(a, 5) + f + e + k + w[n];
-    e = d;
-    d = c;
-    c = std::rotl(b, 30);
-    b = a;
-    a = next;
-  }
-  state_ = {state_[0] + a, state_[1] + b, state_[2] + c, state_[3] + d, state_[4] + e};
-}
-
-void Sha1::add(std::string_view bytes) {
-  const auto* at = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  std::size_t left = bytes.size();
-  while (left > 0) {
-    const std::size_t inside = size_ % 64, some = std::min(left, 64 - inside);
-    std::memcpy(buffer_.data() + inside, at, some);
-    size_ += some;
-    at += some;
-    left -= some;
-    if (size_ % 64 == 0) block(buffer_.data());
-  }
-}
-
-std::array<std::uint8_t, 20> Sha1::finish() {
-  const std::uint64_t bits = 8 * size_;
-  std::string end(1 + (119 - size_ % 64) % 64, '\0');
-  end[0] = static_cast<char>(0x80);
-  for (int n = 7; n >= 0; --n)
-    end += static_cast<char>((bits >> (8U * static_cast<unsigned>(n))) & 0xFFU);
-  add(end);
-  std::array<std::uint8_t, 20> out{};
-  for (std::size_t n = 0; n < 20; ++n)
-    out[n] = static_cast<std::uint8_t>(state_[n / 4] >> (24 - 8 * (n % 4)));
-  return out;
+std::string sha1(std::string_view bytes) {
+  Sha1 sha;
+  sha.add(bytes);
+  const auto all = sha.finish();
+  return digits(all.data(), all.size());
 }
 
 Result<std::string> sha1_of_file(const std::string& path) {

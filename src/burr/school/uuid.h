@@ -4,8 +4,6 @@
 // SHA-1 is no protection against somebody who makes two files of one hash on purpose. Thread: any.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -13,20 +11,9 @@
 
 namespace burr::school {
 
-class Sha1 {
- public:
-  void add(std::string_view bytes);
-  [[nodiscard]] std::array<std::uint8_t, 20> finish();  // no add() after it
-
- private:
-  void block(const std::uint8_t* bytes);
-  std::array<std::uint32_t, 5> state_ = {0x67452301, 0xEFCDAB89, 0x98BADCFE, 0x10325476,
-                                         0xC3D2E1F0};
-  std::array<std::uint8_t, 64> buffer_{};
-  std::uint64_t size_ = 0;  // [byte]
-};
-
-// Of a file's bytes, as 40 hexadecimal digits. Reads the whole file.
+// 40 hexadecimal digits.
+[[nodiscard]] std::string sha1(std::string_view bytes);
+// Of a file's bytes. Reads the whole file.
 [[nodiscard]] Result<std::string> sha1_of_file(const std::string& path);
 
 [[nodiscard]] std::string uuid_at_random();
