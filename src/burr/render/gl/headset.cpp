@@ -1,5 +1,5 @@
 // The session with a headset's OpenXR 1.0, as in the specification: events, frames, the end; headset_start.cpp begins it.
-// The runtime in tests/support/fake_openxr.cpp checks the rules of each call.
+// The runtime in tests/render/openxr/fake_openxr.cpp checks the rules of each call.
 #include "burr/render/headset.h"
 
 #include <fmt/format.h>
