@@ -8,7 +8,7 @@
 
 The hand mills in rows, layer by layer from the cortex inwards, a funnel as a surgeon makes it, then a fine pass over its
 walls. The centre of the burr (5 mm) keeps its distance from sinus, dura, ear canal, facial nerve and the lateral canal,
-whose places are those of src/burr/phantom/temporal_bone.cpp. This makes the picture of README.md.
+whose places are those of src/burr/phantom/temporal_bone_model.h. This makes the picture of README.md.
 """
 import math
 

@@ -19,13 +19,13 @@ set(src ${PROJECT_SOURCE_DIR}/src/burr)
 file(GLOB render CONFIGURE_DEPENDS ${src}/render/*.cpp ${src}/render/gl/*.cpp)
 # windows, headsets, files, threads, meshoptimizer: not in a page
 list(FILTER render EXCLUDE REGEX
-  "/(context|headset|x_errors|xr_binding|bone_scene|coarsening|coarse_mesh|picture)\\.cpp$")
-set(phantom build shapes sculpt temporal_bone)
+  "/(context|headset|headset_start|x_errors|xr_binding|bone_scene|coarsening|coarse_mesh|picture)\\.cpp$")
+set(phantom build shapes sculpt temporal_bone temporal_bone_model)
 list(TRANSFORM phantom REPLACE "(.+)" "${src}/phantom/\\1.cpp")
 set(hands ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/mouse_aim.cpp ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/mouse_hand.cpp
   ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/grip.cpp)
-set(record pen mcap/mcap_writer schema session_info view course grid_json tool_json identity private_text bone_blob)
-set(reading player player_notes assumed_tool mcap/mcap_reader)
+set(record pen mcap/mcap_writer schema protobuf tick_columns bricks command_json session_schema session_info view course grid_json tool_json identity private_text bone_blob)
+set(reading player player_bone player_notes assumed_tool mcap/mcap_reader)
 foreach(list record reading)
   list(TRANSFORM ${list} REPLACE "(.+)" "${src}/record/\\1.cpp")
 endforeach()

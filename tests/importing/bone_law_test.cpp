@@ -5,6 +5,7 @@
 
 #include "burr/importing/import.h"
 #include "burr/importing/surface_field.h"
+#include "burr/importing/tissue_volumes.h"
 #include "scenes/thin_shapes.h"
 
 namespace burr::importing {

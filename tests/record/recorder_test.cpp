@@ -152,10 +152,10 @@ TEST(Recorder, EveryFieldOfATickHasAColumn) {
   fields += sizeof(tick::PieceRow);     // 4 byte after `state`
   fields += sizeof(tick::LawRow);
   EXPECT_EQ(fields, sizeof(tick::TickRow))
-      << "a new field in TickRow: add its column in schema.cpp";
+      << "a new field in TickRow: add its column in tick_columns.cpp";
   EXPECT_EQ(tick_columns_size(), sizeof(tick::TickRow) - 3 - 3 - 3 - 4)
       << "a new field in HandState, Contact, Ledger, ToolState or PieceRow: add its column in "
-         "schema.cpp";
+         "tick_columns.cpp";
 }
 
 TEST(Recorder, AToolThatStaysCostsAMessageOneValueAColumn) {

@@ -5,42 +5,31 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "burr/device/simulated_hand.h"
 #include "burr/lrs/launch.h"
 #include "burr/record/diary.h"
-#include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
-#include "burr/render/renderer.h"
 #include "burr/serve/guard.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
-#include "burr/tick/rows.h"
-#include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/prepare.h"
-#include "burr/workshop/seen.h"
 #include "burr/workshop/spared.h"
-#include "burr/workshop/tool_looks.h"
-#include "burr/workshop/work_view.h"
 #include "commands/bone_option.h"
 #include "commands/command.h"
 #include "commands/hand_options.h"
 #include "commands/identity_options.h"
-#include "commands/interrupt.h"
 #include "commands/law_options.h"
 #include "commands/outputs.h"
 #include "commands/recording.h"
+#include "commands/run_folder.h"
+#include "commands/run_headless.h"
 #include "commands/summary.h"
 #include "commands/volume_words.h"
 #include "commands/work.h"
@@ -57,17 +46,9 @@
 namespace burr::app {
 namespace {
 
-using math::Vec3;
-
-constexpr int kWidth = 1280, kHeight = 720;  // size of the pictures
-constexpr double kHeadlessSeconds = 20;
-
-struct Options {
-  WorkOptions work;
-  std::string out, screenshot, store, live, live_token, station, cmi5;
-  double seconds = 0;
-  bool headless = false, no_sound = false, xr = false, force = false;
-};
+using Options = RunOptions;
+using run_folder::kHeight;
+using run_folder::kWidth;
 
 // True: there is a display on which SDL could open a window.
 bool display_there() {
@@ -76,173 +57,12 @@ bool display_there() {
   return false;
 }
 
-// Before the work: the files that the session writes. burr-out, which nobody named, is replaced.
-Status check_folder(const Options& options, const std::filesystem::path& folder) {
-  std::vector<Output> outputs;
-  for (const char* name :
-       {"before.png", "working.png", "after.png", "session.mcap", "summary.html"})
-    outputs.push_back({"--out", (folder / name).string(), {}});
-  return check_outputs(
-      {options.work.volume.source, options.work.volume.labels, options.work.volume.materials},
-      outputs, options.force || options.out.empty());
-}
-
-Status make_folder(const std::filesystem::path& folder) {
-  std::error_code trouble;
-  std::filesystem::create_directories(folder, trouble);
-  if (!trouble) return fine();
-  return error(Trouble::io, fmt::format("{}: cannot make this folder ({}); choose another --out",
-                                        folder.string(), trouble.message()));
-}
-
-Summary summary_of(sim::Session& session, const std::string& what, const std::string& hand) {
-  const sim::Outcome outcome = session.outcome();
-  const sim::SessionSettings& settings = session.settings();
-  Summary summary;
-  summary.what = what;
-  summary.hand = hand;
-  summary.size = session.bone().grid().size;
-  summary.voxel = session.bone().grid().voxel;
-  summary.burr_radius = session.burr_radius();
-  summary.rpm = settings.servo.spindle_rad_s * 60 / (2 * std::numbers::pi);
-  summary.seconds = outcome.seconds;
-  summary.rate_hz = settings.servo.rate_hz;
-  summary.ticks = outcome.ticks;
-  summary.realtime = settings.realtime;
-  summary.removed = outcome.ledger.removed;
-  summary.asked = outcome.ledger.asked;
-  summary.not_cut = outcome.ledger.not_cut;
-  summary.added = outcome.ledger.added;
-  summary.peak_force = outcome.peak_force;
-  summary.mean_force = outcome.mean_force;
-  summary.p50_us = outcome.timing.p50_us;
-  summary.p99_us = outcome.timing.p99_us;
-  summary.p999_us = outcome.timing.p999_us;
-  summary.max_us = outcome.timing.max_us;
-  summary.late = outcome.timing.late;
-  summary.missed = outcome.timing.missed;
-  summary.flags = flag_words(outcome.flags);
-  summary.bone_hash = session.bone().content_hash();
-  summary.tissues = losses(*session.bone_before(), session.bone());
-  return summary;
-}
-
-// The bone and the tool at half time, kept while the session goes on: a session that stops and goes on
-// again lets its forces rise anew, and would give another hash than the same motion elsewhere.
-struct HalfTime {
-  std::unique_ptr<volume::Bone> bone;
-  tick::TickRow row;
-  void wait_in(sim::Session& session, double seconds) {
-    const auto ticks =
-        static_cast<std::uint64_t>(std::llround(0.5 * seconds * session.settings().servo.rate_hz));
-    if (ticks == 0) return;
-    session.set_between_ticks(
-        [this, &session, ticks] {
-          if (session.ticks() != ticks) return;
-          static_cast<void>(session.view(row));
-          bone = volume::copy_of(session.bone());
-        },
-        ticks);
-  }
-};
-
-void put_tool_of(render::Scene& scene, const sim::Session& session, const tick::TickRow& row) {
-  workshop::put_tool(scene, row, true);
-  workshop::ToolLooks(session.settings().servo.tools).put(scene, row.tool.number);
-}
-
-// What the pictures show. Nobody is there whom help could be shown.
-record::Sight sight_of(const render::Scene& scene) {
-  record::Sight sight;
-  sight.view = workshop::view_of(scene.camera, 0);
-  sight.view.slices = sight.view.panels = false;
-  return sight;
-}
-
-// Before, at half time with the burr in the bone, and after, in the same view.
-Status run_headless(const Options& options) {
-  const std::filesystem::path folder = options.out.empty() ? "burr-out" : options.out;
-  WorkOptions requested = options.work;
-  const double seconds = requested.seconds > 0 ? requested.seconds : kHeadlessSeconds;
-  Status made = make_folder(folder);
-  if (made) made = check_folder(options, folder);
-  if (!made) return made;
-  if (requested.work_case) fmt::print(stderr, "{}", scenario::task_text(*requested.work_case));
-  auto opened = open_work(requested, progress());
-  if (!opened) return opened.error();
-  workshop::Prepared& work = *opened;
-  for (const std::string& notice : work.summary.notices) fmt::print(stderr, "{}\n", notice);
-  const auto chosen = settings_of(requested, false);
-  if (!chosen) return chosen.error();
-  const sim::SessionSettings& settings = *chosen;
-  auto path = surgeon::motion(requested.motion, work.place, settings.servo.burr.radius, seconds);
-  if (!path) return path.error();
-  auto started =
-      workshop::begin_by_itself(std::move(work.bone), std::move(*path), settings, progress());
-  if (!started) return started.error();
-  sim::Session& session = **started;
-
-  auto renderer = render::Renderer::offscreen();
-  if (!renderer) return renderer.error();
-  render::Scene scene = workshop::scene_of_work(session.bone(), settings.servo.burr.radius,
-                                                work.place.at, -work.place.into);
-  const auto picture = [&](const char* name, const volume::Bone& bone) -> Status {
-    const Status skinned = render::skin_bone(scene, bone, settings.threads, progress());
-    if (!skinned) return skinned;
-    const auto image = (*renderer)->image(scene, kWidth, kHeight);
-    if (!image) return image.error();
-    return render::write_png(*image, folder / name);
-  };
-  const auto stopped = [] {
-    return interrupted() ? Status(error(Trouble::interrupted, "stopped")) : fine();
-  };
-
-  Status status = picture("before.png", session.bone());
-  if (!status) return status;
-  Recording recording;
-  recording.remember_scan_in(users_scan_list());
-  recording.belongs_to(requested.identity);
-  status = recording.start(
-      session, (folder / "session.mcap").string(), work.recipe, work.summary, requested.motion,
-      false, workshop::to_spare(session.bone_tissues(), requested.spare), requested.work_case);
-  if (!status) return status;
-  if (recording.diary() != nullptr) recording.diary()->look(sight_of(scene));
-  HalfTime half;
-  half.wait_in(session, seconds);
-  session.run(seconds, progress());
-  status = stopped();
-  if (status && half.bone) {
-    put_tool_of(scene, session, half.row);
-    status = picture("working.png", *half.bone);
-  }
-  scene.burr.visible = false;
-  scene.markers.clear();
-  scene.rods.clear();
-  const Status recorded = recording.finish(session);
-  if (!status) return status;
-  Summary summary = summary_of(session, work.what, "simulated hand, " + requested.motion);
-  if (requested.work_case) summary.task = scenario::task_text(*requested.work_case);
-  if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
-  status = picture("after.png", session.bone());
-  if (!status) return recorded ? status : recorded;
-
-  summary.pictures = {
-      {"before.png", "before"}, {"working.png", "at half time"}, {"after.png", "after"}};
-  if (recorded) summary.recording = "session.mcap";
-  status = write_summary(summary, folder);
-  if (!recorded) return recorded;
-  if (!status) return status;
-  fmt::print("{}{}: before.png working.png after.png session.mcap summary.html\n",
-             summary_text(summary), folder.string());
-  return fine();
-}
-
 // What a session in the window leaves in the folder that the user named.
 Status write_session(const Options& options, const Ready& ready, const render::Scene& before,
                      const Status& recorded) {
   const std::filesystem::path folder = options.out;
   sim::Session& session = *ready.session;
-  Summary summary = summary_of(session, ready.what, session.hand().spec().name);
+  Summary summary = summary_of_run(session, ready.what, session.hand().spec().name);
   if (ready.work_case) summary.task = scenario::task_text(*ready.work_case);
   if (!recorded) fmt::print("{}", summary_text(summary));  // the page may not fit on the disk
   render::Scene after = ready.scene;
@@ -380,8 +200,8 @@ Status launched(const Options& options, Told& told, Work work) {
 Status run_in_window(Options options, Told& told) {
   const std::filesystem::path folder = options.out;
   if (!folder.empty()) {
-    Status made = make_folder(folder);
-    if (made) made = check_folder(options, folder);
+    Status made = make_run_folder(folder);
+    if (made) made = check_run_folder(options, folder);
     if (!made) return made;
   }
   auto desk = Desk::open(users_places());

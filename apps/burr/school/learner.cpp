@@ -9,35 +9,28 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "burr/base/new_file.h"
 #include "burr/base/places.h"
 #include "burr/base/printable.h"
-#include "burr/io/write/zip.h"
 #include "burr/record/identity.h"
 #include "burr/record/player.h"
-#include "burr/school/export.h"
 #include "burr/school/forget.h"
-#include "burr/school/pending.h"
 #include "burr/school/practice.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
-#include "burr/school/uuid.h"
 #include "commands/command.h"
 #include "commands/counted.h"
-#include "commands/outputs.h"
 #include "commands/volume_words.h"
-#include "report/marked.h"
-#include "report/report_page.h"
 #include "school/decide.h"
+#include "school/learner_export.h"
+#include "school/learner_sessions.h"
+#include "school/learner_store.h"
 #include "school/practice_words.h"
-#include "school/session_of.h"
 #include "school/store_command.h"
 #include "school/xapi.h"
 #include "window/shell/words.h"
@@ -47,31 +40,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-struct Options {
-  std::string store;
-  bool json = false;
-  // add
-  school::Learner learner;
-  school::Person person;
-  std::string retain_until;
-  // others
-  std::string id, recording, rubric, out, csv, title, language = "en";
-  school::Decision decision;
-  std::vector<std::string> ids;
-  scenario::Recipe volume;
-  bool names = false, sessions = false, overdue = false, scrub = false, all = false,
-       no_reports = false;
-};
-
-// ---- days
-
-std::string day_of(std::int64_t ms) {
-  const auto seconds = static_cast<std::time_t>(ms / 1000);
-  std::tm local = {};
-  localtime_r(&seconds, &local);
-  return fmt::format("{:%Y-%m-%d}", local);
-}
+using Options = LearnerOptions;
 
 // "2027-12-31": the end of that day here.
 Result<std::int64_t> end_of_day(const std::string& text) {
@@ -90,42 +59,6 @@ Result<std::int64_t> end_of_day(const std::string& text) {
   return std::int64_t{1000} * std::mktime(&day);
 }
 
-// ---- the store
-
-Result<school::SessionRecord> score_waiting(const school::WaitingRecording& waiting) {
-  return session_of(waiting.file, waiting.learner, waiting.rubric, {}, progress());
-}
-
-void say_others(const school::TakenIn& in) {
-  if (in.others > 0)
-    fmt::print(stderr, "{} here for other stores\n",
-               in.others == 1 ? "1 session waits" : fmt::format("{} sessions wait", in.others));
-}
-
-enum class Make { no, yes };
-
-// Opens the store, takes in the sessions that waited and are scored already, and says what it has to say.
-Result<std::unique_ptr<school::Store>> open_store(const Options& options, Make make = Make::no) {
-  const auto where = store_place(options.store);
-  if (!where) return where.error();
-  if (make == Make::no)
-    if (const Status there = check_store_is_there(*where); !there) return there.error();
-  auto store = school::Store::open(*where);
-  if (!store) return store.error();
-  for (const std::string& line : (*store)->notices()) fmt::print(stderr, "{}\n", line);
-  if ((*store)->reads_only()) return store;
-  const school::TakenIn in = school::take_in(**store, {});
-  for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
-  if (in.taken > 0)
-    fmt::print(stderr, "{} that waited came into the store\n", counted(in.taken, "session"));
-  if (in.unscored > 0)
-    fmt::print(
-        stderr, "{} to be scored; run `burr learner take-in`\n",
-        in.unscored == 1 ? "1 recording waits" : fmt::format("{} recordings wait", in.unscored));
-  say_others(in);
-  return store;
-}
-
 // ---- add, list
 
 Status run_add(Options options) {
@@ -134,7 +67,7 @@ Status run_add(Options options) {
     if (!until) return until.error();
     options.learner.retain_until_ms = *until;
   }
-  auto store = open_store(options, Make::yes);
+  auto store = open_store(options, MakeStore::yes);
   if (!store) return store.error();
   if (options.learner.id.empty()) {
     const auto id = school::new_pseudonym(**store);
@@ -265,67 +198,6 @@ Status run_list(const Options& options) {
   return fine();
 }
 
-// ---- sessions come in
-
-Status run_enter(const Options& options) {
-  const auto where = store_place(options.store);
-  if (!where) return where.error();
-  if (const Status there = check_store_is_there(*where); !there) return there;
-  const auto record =
-      session_of(options.recording, options.id, options.rubric, options.volume, progress());
-  if (!record) return record.error();
-  const auto kept = school::enter_or_keep(*where, *record);
-  if (!kept) return kept.error();
-  if (kept->stored)
-    fmt::print("{}: the session is in the store\n", record->learner);
-  else
-    fmt::print("{}: the session waits, and comes into the store at the next start: {}\n",
-               record->learner, kept->why);
-  print_json(options.json, {{"session", school::session_id(*record)},
-                            {"learner", record->learner},
-                            {"stored", kept->stored}});
-  return fine();
-}
-
-// Also scores recordings; the window starts this beside itself.
-Status run_take_in(const Options& options) {
-  const auto where = store_place(options.store);
-  if (!where) return where.error();
-  if (const Status there = check_store_is_there(*where); !there) return there;
-  std::vector<std::string> notices;
-  const std::vector<school::Waiting> all = school::waiting(*where, notices);
-  // what is scored once need not be scored again, wherever the server is; nor what cannot be scored
-  std::map<std::string, Error> failed;
-  for (const school::Waiting& one : all) {
-    if (!one.recording) continue;
-    std::error_code nobody_asks;
-    if (!fs::exists(one.recording->file, nobody_asks)) continue;
-    const auto record = score_waiting(*one.recording);
-    if (!record) {
-      failed.emplace(one.recording->file, record.error());  // take_in() says why
-      continue;
-    }
-    if (const Status kept = school::keep(*where, *record); !kept) return kept;
-    fs::remove(one.file, nobody_asks);
-  }
-  auto store = school::Store::open(*where);
-  if (!store) return store.error();
-  const school::TakenIn in = school::take_in(
-      **store, [&](const school::WaitingRecording& one) -> Result<school::SessionRecord> {
-        if (const auto found = failed.find(one.file); found != failed.end()) return found->second;
-        return score_waiting(one);
-      });
-  for (const std::string& line : notices) fmt::print(stderr, "{}\n", line);
-  for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
-  say_others(in);
-  fmt::print("{} came into the store, {} still waiting\n", counted(in.taken, "session"), in.left);
-  print_json(options.json, {{"taken", in.taken}, {"left", in.left}});
-  std::fflush(stdout);
-  send_what_is_due(**store);
-  tell_waiting_launches();
-  return fine();
-}
-
 // ---- forget
 
 // Recordings of the window that are this learner's, also those that never came into the store; and those of which
@@ -390,92 +262,6 @@ Status run_forget(const Options& options) {
   return fine();
 }
 
-// ---- export
-
-Status write_csv(const Options& options, school::Store& store) {
-  const auto files = school::all_tables(store);
-  if (!files) return files.error();
-  std::error_code trouble;
-  fs::create_directories(options.csv, trouble);
-  if (trouble)
-    return error(Trouble::io, fmt::format("--csv {}: cannot make this folder ({})",
-                                          base::printable(options.csv), trouble.message()));
-  for (const school::TextFile& one : *files) {
-    auto file = base::NewFile::create((fs::path(options.csv) / one.name).string());
-    if (!file) return file.error();
-    file->write(one.text);
-    if (const Status written = file->put_in_place(); !written) return written;
-  }
-  fmt::print("{}: {}, pseudonyms only\n", base::printable(options.csv, 300),
-             counted(files->size(), "table"));
-  print_json(options.json, {{"tables", files->size()}});
-  return fine();
-}
-
-// A page for each recording that is there.
-void add_reports(const Options& options, const std::vector<school::SessionRow>& sessions,
-                 std::vector<school::TextFile>& files, std::vector<std::string>& missing) {
-  speak(options.language);
-  for (const school::SessionRow& one : sessions) {
-    const std::string path = school::path_of(one.recording_uri);
-    std::error_code nobody_asks;
-    if (path.empty() || !fs::exists(path, nobody_asks)) {
-      missing.push_back(one.recording_uri);
-      continue;
-    }
-    // a report of what has its name now may be of somebody else
-    if (const auto hash = school::sha1_of_file(path); !hash || *hash != one.recording_hash) {
-      missing.push_back(one.recording_uri + " (another file has its name now)");
-      continue;
-    }
-    const auto report = marked(path, "", {}, progress());
-    if (report)
-      files.push_back(
-          {fmt::format("report_{}_{}.html", day_of(one.started_ms), one.id.substr(0, 8)),
-           page_of(*report)});
-    else
-      missing.push_back(fmt::format("{} ({})", one.recording_uri, report.error().text));
-  }
-}
-
-Status write_zip(const std::string& path, const std::vector<school::TextFile>& files) {
-  auto file = base::NewFile::create(path, 0600);  // it may hold a name
-  if (!file) return file.error();
-  io::Zip zip(*file);
-  for (const school::TextFile& one : files)
-    zip.add(one.name, [&one](io::Deflate& to) {
-      to.write(one.text.data(), one.text.size());
-      return true;
-    });
-  if (!zip.finish()) return error(Trouble::io, path + ": larger than 4 GB; use --no-reports");
-  return file->put_in_place();
-}
-
-Status run_export(const Options& options) {
-  if (options.all != options.id.empty() || options.all == options.csv.empty())
-    return error(Trouble::usage, "use `burr learner export ID --out F.zip`, or `--all --csv DIR`");
-  if (const Status possible = check_outputs({}, {{"--out", options.out, {".zip"}}}); !possible)
-    return possible;
-  if (!options.all && options.out.empty())
-    return error(Trouble::usage, "--out is missing: F.zip, the file to write");
-  auto store = open_store(options);
-  if (!store) return store.error();
-  if (options.all) return write_csv(options, **store);
-  auto files = school::tables_of(**store, options.id);
-  if (!files) return files.error();
-  const auto sessions = school::sessions_of(**store, options.id);
-  if (!sessions) return sessions.error();
-  std::vector<std::string> missing;
-  if (!options.no_reports) add_reports(options, *sessions, *files, missing);
-  if (const Status written = write_zip(options.out, *files); !written) return written;
-  fmt::print("{}: {}, all that is known of {}\n", base::printable(options.out, 300),
-             counted(files->size(), "file"), options.id);
-  for (const std::string& one : missing)
-    fmt::print("no report, because the recording is not here: {}\n", base::printable(one, 400));
-  print_json(options.json, {{"files", files->size()}, {"missing", missing}});
-  return fine();
-}
-
 // ---- cohorts, audit
 
 Status run_cohort_list(const Options& options) {
@@ -493,7 +279,7 @@ Status run_cohort_list(const Options& options) {
 }
 
 Status run_cohort(const Options& options, bool adds) {
-  auto store = open_store(options, adds ? Make::yes : Make::no);
+  auto store = open_store(options, adds ? MakeStore::yes : MakeStore::no);
   if (!store) return store.error();
   const Status done = adds ? school::add_to_cohort(**store, options.title, options.ids)
                            : school::remove_from_cohort(**store, options.title, options.ids);
@@ -574,7 +360,7 @@ void add_people(CLI::App& command, Todo& todo) {
 void add_sessions(CLI::App& command, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* enter = sub(command, "enter", "score a recording and enter it as a session of a learner",
-                    options, todo, run_enter);
+                    options, todo, enter_session);
   enter->add_option("learner", options->id, "a pseudonym")->required();
   enter->add_option("recording", options->recording, "a recording (.mcap)")->required();
   enter->add_option("--rubric", options->rubric,
@@ -585,11 +371,11 @@ void add_sessions(CLI::App& command, Todo& todo) {
 
   options = std::make_shared<Options>();
   sub(command, "take-in", "score and enter the sessions that wait for the store", options, todo,
-      run_take_in);
+      take_in_sessions);
 
   options = std::make_shared<Options>();
   auto* out = sub(command, "export", "all that is known of a learner, or tables of all", options,
-                  todo, run_export);
+                  todo, export_learners);
   out->add_option("learner", options->id, "a pseudonym");
   out->add_option("--out", options->out, "F.zip: tables (CSV and JSON) and reports");
   out->add_flag("--no-reports", options->no_reports, "tables alone");

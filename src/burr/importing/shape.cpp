@@ -8,6 +8,7 @@
 
 #include "burr/importing/crumbs.h"
 #include "burr/importing/part_volumes.h"
+#include "burr/importing/tissue_volumes.h"
 
 namespace burr::importing {
 namespace {

@@ -11,6 +11,7 @@
 #include "burr/math/sums.h"
 #include "burr/rt/thread.h"
 #include "burr/surface/cases.h"
+#include "burr/surface/tissues_behind.h"
 
 namespace burr::surface {
 namespace {
@@ -21,7 +22,6 @@ using volume::BrickIndex;
 using volume::Field;
 using volume::kBrickEdge;
 using volume::kIso;
-using volume::TissueId;
 
 constexpr int kCells = kPatchEdge;     // along each axis of a patch
 constexpr int kSamples = kCells + 1;   // voxels at the corners of its cells
@@ -59,18 +59,14 @@ static_assert(kIso == 0x8000, "the top bit says solid");
 }  // namespace
 
 struct Mesher::Work {
-  explicit Work(const volume::Bone& from) : bone(from) {
+  explicit Work(const volume::Bone& from)
+      : bone(from), behind(from, shine_through(from.grid().voxel), kShineSteps) {
     const volume::Grid& grid = bone.grid();
     patches = (grid.size.array() + 1 + kCells - 1) / kCells;
     const math::Mat3 axes = grid.frame.q.toRotationMatrix();
     step = axes * grid.voxel;
     turn = axes.cast<float>();
     origin = grid.frame.p;
-    for (const volume::Tissue& tissue : bone.tissues().tissues)
-      soft.push_back(tissue.kind == volume::TissueKind::soft);
-    soft.resize(256);
-    find_soft();
-    find_borders();
     std::size_t e = 0;
     for (const CellEdge& edge : cell_edges())
       id_offset[e++] = edge.axis * kIds + (edge.z * kSamples + edge.y) * kSamples + edge.x;
@@ -83,18 +79,10 @@ struct Mesher::Work {
   template <int axis>
   void make_vertex(int x, int y, int z, const math::Ijk& first);
   void make_triangles();
-  void find_soft();
-  void find_borders();
-  [[nodiscard]] bool any_soft_near(const math::Ijk& first) const;
-  void look_beneath(const math::Vec3& p_grid, const math::Vec3& n_grid, Vertex& v) const;
-  void look_aside(const math::Ijk& voxel, const math::Vec3& p_grid, Vertex& v) const;
 
   const volume::Bone& bone;
-  std::vector<bool> soft;         // by TissueId
-  std::vector<bool> soft_bricks;  // that hold soft tissue, and their neighbours; empty: none
-  bool soft_near = false;         // in reach of this patch
-  std::vector<bool>
-      border_bricks;  // with solid tissues of several kinds, or beside others; empty: none
+  TissuesBehind behind;
+  bool soft_near = false;  // in reach of this patch
   math::Ijk patches = {0, 0, 0};
   math::Mat3 step;  // columns: world step of one voxel along i, j, k [m]
   Eigen::Matrix3f turn;
@@ -208,183 +196,6 @@ void Mesher::Work::find_solid() {
     }
 }
 
-// Only added material changes tissues, and that is solid: soft tissue stays where it is.
-void Mesher::Work::find_soft() {
-  if (std::find(soft.begin(), soft.end(), true) == soft.end()) return;
-  std::vector<bool> wide(static_cast<std::size_t>(bone.brick_count()));
-  bool any = false;
-  for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
-    const TissueId* tissue = bone.brick_tissue(b);
-    if (tissue == nullptr) continue;
-    const bool holds =
-        std::any_of(tissue, tissue + volume::kBrickVoxels, [&](TissueId one) { return soft[one]; });
-    if (!holds) continue;
-    any = true;
-    const math::Ijk at = bone.brick_ijk(b) / kBrickEdge;
-    const math::Ijk low = (at.array() - 1).max(0);
-    const math::Ijk high = (at.array() + 1).min(bone.bricks().array() - 1);
-    for (int k = low.z(); k <= high.z(); ++k)
-      for (int j = low.y(); j <= high.y(); ++j)
-        for (int i = low.x(); i <= high.x(); ++i)
-          wide[static_cast<std::size_t>(bone.brick_at(i, j, k))] = true;
-  }
-  if (any) soft_bricks = std::move(wide);
-}
-
-// A brick beside one of another tissue counts too: a border may run between the two.
-void Mesher::Work::find_borders() {
-  std::vector<int> only(static_cast<std::size_t>(bone.brick_count()));  // its solid tissue; 0: none
-  constexpr int kSeveral = -1;
-  const auto joined = [](int a, int b) { return a == b || b == 0 ? a : a == 0 ? b : kSeveral; };
-  std::array<int, 256> solids{};
-  for (std::size_t n = 0; n < std::min(solids.size(), bone.tissues().tissues.size()); ++n)
-    if (bone.tissues().tissues[n].kind == volume::TissueKind::solid)
-      solids[n] = static_cast<int>(n);
-  for (BrickIndex b = 0; b < bone.brick_count(); ++b)
-    if (const TissueId* tissue = bone.brick_tissue(b); tissue != nullptr)
-      for (int v = 0; v < volume::kBrickVoxels; ++v)
-        only[static_cast<std::size_t>(b)] =
-            joined(only[static_cast<std::size_t>(b)], solids[tissue[v]]);
-  std::vector<bool> found(only.size());
-  bool any = false;
-  for (BrickIndex b = 0; b < bone.brick_count(); ++b) {
-    if (only[static_cast<std::size_t>(b)] == 0) continue;
-    const math::Ijk at = bone.brick_ijk(b) / kBrickEdge;
-    const math::Ijk low = (at.array() - 1).max(0);
-    const math::Ijk high = (at.array() + 1).min(bone.bricks().array() - 1);
-    int all = 0;
-    for (int k = low.z(); k <= high.z(); ++k)
-      for (int j = low.y(); j <= high.y(); ++j)
-        for (int i = low.x(); i <= high.x(); ++i)
-          all = joined(all, only[static_cast<std::size_t>(bone.brick_at(i, j, k))]);
-    if (all != kSeveral) continue;
-    found[static_cast<std::size_t>(b)] = any = true;
-  }
-  if (any) border_bricks = std::move(found);
-}
-
-// True if the search from this patch's vertices can meet soft tissue at all.
-bool Mesher::Work::any_soft_near(const math::Ijk& first) const {
-  if (soft_bricks.empty()) return false;
-  const math::Ijk low = ((first.array() - kShineSteps - 1) / kBrickEdge).max(0);
-  const math::Ijk high =
-      ((first.array() + kSamples + kShineSteps + 1) / kBrickEdge).min(bone.bricks().array() - 1);
-  for (int k = low.z(); k <= high.z(); ++k)
-    for (int j = low.y(); j <= high.y(); ++j)
-      for (int i = low.x(); i <= high.x(); ++i)
-        if (soft_bricks[static_cast<std::size_t>(bone.brick_at(i, j, k))]) return true;
-  return false;
-}
-
-// Searches along the normal, voxel by voxel: one step out of the bone for tissue that fills a
-// hollow, then inwards for tissue under it. Air on the way hides what is behind it.
-void Mesher::Work::look_beneath(const math::Vec3& p_grid, const math::Vec3& n_grid,
-                                Vertex& v) const {
-  const double voxel = bone.grid().voxel;
-  const math::Ijk& size = bone.grid().size;
-  const auto tissue_at = [&](double out) -> TissueId {
-    const math::Ijk at = (p_grid + out * n_grid).array().round().cast<int>();
-    if ((at.array() < 0).any() || (at.array() >= size.array()).any()) return 0;
-    return bone.shared_tissue(at.x(), at.y(), at.z());
-  };
-  // nearly every vertex is far from all soft tissue. No point of the search is farther than half a
-  // brick from one of these two points, so any soft tissue is in their bricks or in the neighbours
-  const auto near_soft = [&](double out) {
-    const math::Ijk at =
-        (p_grid + out * n_grid).array().round().cast<int>().max(0).min(size.array() - 1);
-    return static_cast<bool>(soft_bricks[static_cast<std::size_t>(
-        bone.brick_at(at.x() / kBrickEdge, at.y() / kBrickEdge, at.z() / kBrickEdge))]);
-  };
-  if (!near_soft(0) && !near_soft(-8)) return;
-  // share of soft voxels around one point outside the bone; interpolated, to smooth the labels'
-  // stairs
-  const math::Vec3 out = p_grid + 1.5 * n_grid;
-  const math::Ijk low = out.array().floor().cast<int>();
-  const math::Vec3 part = out - low.cast<double>();
-  double filled = 0;
-  TissueId filling = 0;
-  for (int c = 0; c < 8; ++c) {
-    const math::Ijk by(c & 1, (c >> 1) & 1, c >> 2), at = low + by;
-    if ((at.array() < 0).any() || (at.array() >= size.array()).any()) continue;
-    const TissueId tissue = bone.shared_tissue(at.x(), at.y(), at.z());
-    if (!soft[tissue]) continue;
-    filling = tissue;
-    double weight = 1;
-    for (int d = 0; d < 3; ++d) weight *= by[d] == 1 ? part[d] : 1 - part[d];
-    filled += weight;
-  }
-  if (filled > 0) {
-    v.beneath = filling;
-    v.through = static_cast<std::uint8_t>(std::lround(217 * filled));  // its wall is still bone
-    v.wall = static_cast<std::uint8_t>(std::lround(255 * std::min(filled, 1.0)));
-    return;
-  }
-  const double reach = shine_through(voxel);
-  const int steps = static_cast<int>(std::lround(reach / voxel));
-  bool in_bone = false;
-  for (int s = 1; s <= steps; ++s) {
-    const TissueId tissue = tissue_at(-s);
-    if (soft[tissue]) {
-      const double left = std::max(0.0, 1 - (s - 0.5) * voxel / reach);
-      v.through = static_cast<std::uint8_t>(std::lround(191 * left));
-      v.beneath = v.through > 0 ? tissue : TissueId{0};
-      return;
-    }
-    const bool air = bone.tissues()[tissue].kind == volume::TissueKind::air;
-    if (air && in_bone) return;
-    in_bone = in_bone || !air;
-  }
-}
-
-// The share of the most frequent other solid tissue around a vertex, so that the border of two is a
-// soft line and not the stairs of voxels. Weights: a tent of two voxels.
-void Mesher::Work::look_aside(const math::Ijk& voxel, const math::Vec3& p_grid, Vertex& v) const {
-  const math::Ijk& size = bone.grid().size;
-  const auto inside = voxel.array().max(0).min(size.array() - 1).matrix();
-  if (!border_bricks[static_cast<std::size_t>(bone.brick_at(
-          inside.x() / kBrickEdge, inside.y() / kBrickEdge, inside.z() / kBrickEdge))])
-    return;
-  constexpr int kReach = 2, kWide = 2 * kReach + 1;
-  std::array<std::array<double, kWide>, 3> tent{};
-  for (int d = 0; d < 3; ++d)
-    for (int n = 0; n < kWide; ++n)
-      tent[static_cast<std::size_t>(d)][static_cast<std::size_t>(n)] =
-          std::max(0.0, kReach - std::abs(voxel[d] + n - kReach - p_grid[d]));
-  const math::Ijk low = (voxel.array() - kReach).max(0);
-  const math::Ijk high = (voxel.array() + kReach).min(size.array() - 1);
-  double own = 0;
-  struct Other {
-    TissueId tissue = 0;
-    double weight = 0;
-  };
-  std::array<Other, 4> others;  // more do not meet within two voxels
-  for (int k = low.z(); k <= high.z(); ++k)
-    for (int j = low.y(); j <= high.y(); ++j)
-      for (int i = low.x(); i <= high.x(); ++i) {
-        const double weight = tent[0][static_cast<std::size_t>(i - voxel.x() + kReach)] *
-                              tent[1][static_cast<std::size_t>(j - voxel.y() + kReach)] *
-                              tent[2][static_cast<std::size_t>(k - voxel.z() + kReach)];
-        if (weight <= 0) continue;
-        const TissueId tissue = bone.shared_tissue(i, j, k);
-        if (tissue == v.tissue) {
-          own += weight;
-        } else if (bone.tissues()[tissue].kind == volume::TissueKind::solid) {
-          for (Other& other : others) {
-            if (other.weight > 0 && other.tissue != tissue) continue;
-            other.tissue = tissue;
-            other.weight += weight;
-            break;
-          }
-        }
-      }
-  const Other& second =
-      *std::max_element(others.begin(), others.end(),
-                        [](const Other& x, const Other& y) { return x.weight < y.weight; });
-  if (second.weight <= 0) return;
-  v.beneath = second.tissue;
-  v.through = static_cast<std::uint8_t>(std::lround(255 * second.weight / (own + second.weight)));
-}
-
 template <int axis>
 void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   constexpr int kStep[3] = {1, kRow, kApron * kRow};
@@ -421,8 +232,10 @@ void Mesher::Work::make_vertex(int x, int y, int z, const math::Ijk& first) {
   vertex[i].beneath = 0;
   vertex[i].through = 0;
   vertex[i].wall = 0;
-  if (soft_near) look_beneath(p_grid, (n / std::sqrt(length)).template cast<double>(), vertex[i]);
-  if (vertex[i].through == 0 && !border_bricks.empty()) look_aside(voxel, p_grid, vertex[i]);
+  if (soft_near)
+    behind.look_beneath(p_grid, (n / std::sqrt(length)).template cast<double>(), vertex[i]);
+  if (vertex[i].through == 0 && !behind.border_bricks.empty())
+    behind.look_aside(voxel, p_grid, vertex[i]);
   key[i] = EdgeKey{x, y, z, axis}.packed();
   id[static_cast<std::size_t>(axis * kIds + (z * kSamples + y) * kSamples + x)] =
       static_cast<std::uint16_t>(i);
@@ -473,7 +286,7 @@ bool Mesher::Work::run(int patch) {
   const math::Ijk first = at * kCells - math::Ijk::Ones();
   vertices = indices = 0;
   if (!gather(first)) return false;
-  soft_near = any_soft_near(first);
+  soft_near = behind.any_soft_near(first);
   make_vertices(first);
   if (vertices > 0) make_triangles();
   return true;

@@ -28,6 +28,9 @@ namespace burr::app {
 struct ImportLayout {
   struct Part {
     float x = 0, y = 0, w = 0, h = 0;
+    [[nodiscard]] bool holds(float px, float py) const {
+      return px >= x && px < x + w && py >= y && py < y + h;
+    }
   };
   std::array<Part, 3> views;            // axial, coronal, sagittal
   Part level, plot, facts, bone;        // below: histogram or labels, scan, planned bone

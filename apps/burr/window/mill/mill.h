@@ -2,7 +2,7 @@
 // the user, the session and the bone.
 //
 // Its parts: window.cpp (the loop of pictures), mill_hand.cpp (the mouse as a hand, and what each
-// button does), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
+// button does), mill_view.cpp (views and colours), mill_keys.cpp (the table of keys), mill_pads.cpp (gamepad, pedal, SpaceMouse),
 // mill_status.cpp (what the user reads), mill_diary.cpp (what the recording keeps), mill_names.cpp
 // (the names of structures), mill_tools.cpp (the rack), mill_pieces.cpp (free pieces), mill_steps.cpp (the steps of the case, and what the mode of the session allows). Parts with a state of their own
 // are classes: Drill, Press, Pointer, OverPages, WornHeadset, TickWatch, SuctionTube, Steps,
@@ -150,7 +150,6 @@ class Mill {
   void move(const SDL_MouseMotionEvent& motion);
   void button(const SDL_MouseButtonEvent& button);
   void wheel(const SDL_MouseWheelEvent& wheel);
-  void turn_view(double right, double up, bool shift);
   void act(Action action);
   void leave();
   void push(double factor);
@@ -164,7 +163,6 @@ class Mill {
   void stop_or_go_on();
   void next_measure();
   void measure();
-  void show_labels(bool shown);
   void toggle_labels();
   void step_opacity(bool back);
   void toggle_sound();
@@ -177,13 +175,6 @@ class Mill {
   void mirror_next_plane();
   void note_mirror();
   void show_task();
-  void saved_view(int slot, bool keep);
-  void take_view(ViewKind kind);
-  void first_view();
-  void magnify(double by);
-  void deep_or_not();
-  void refocus(double by);
-  [[nodiscard]] double aspect() const;
   void go_back();
   void keep();
   void pick_point();
@@ -196,6 +187,17 @@ class Mill {
   [[nodiscard]] double user_limit() const {
     return std::min(desk_.settings.force_limit_n, hands_.max_force);
   }
+
+  // ---- mill_view.cpp
+  void turn_view(double right, double up, bool shift);
+  void show_labels(bool shown);
+  void saved_view(int slot, bool keep);
+  void take_view(ViewKind kind);
+  void first_view();
+  void magnify(double by);
+  void deep_or_not();
+  void refocus(double by);
+  [[nodiscard]] double aspect() const;
 
   // ---- mill_pads.cpp
   void take_hands();

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "burr/haptics/six/lattice_gap.h"
+#include "burr/haptics/six/held_rows.h"
 #include "burr/math/sums.h"
 #include "burr/math/turn.h"
 
@@ -13,111 +12,22 @@ namespace {
 
 using math::Quat;
 using math::Vec3;
+using twelve::Held;
+using twelve::kTolerance;
+using twelve::Name;
+using twelve::Twelve;
 
-constexpr int kMost = 12;            // rows in hand
-constexpr int kPasses = 90;          // rows taken
-constexpr double kTolerance = 2e-6;  // as in least_twist.cpp                           [voxel]
-constexpr double kExact = 1e-11;     // the same for a pair, whose row is in doubles    [voxel]
-constexpr double kAccepted = 4e-4;   //                                                 [voxel]
-constexpr double kDependent = 1e-9;
-constexpr double kMargin = 0.2e-3;  // tools this near are solved together                  [m]
+constexpr int kPasses = 90;         // rows taken
+constexpr double kAccepted = 4e-4;  // [voxel]
 constexpr int kRounds = 10;
 constexpr double kLeastMove = 0.02;  // [voxel]
 constexpr double kRest = 0.1;        // of a move left over that counts as rest          [voxel]
 constexpr int kHoldMoves = 3;        // to where friction holds the tools, in a round
 constexpr int kHoldRounds = 4;       // of finding how much it holds
 
-using Twelve = std::array<double, 12>;
-
-double dot12(const Twelve& a, const Twelve& b) BURR_RT {
-  double sum = 0;
-  for (std::size_t k = 0; k < 12; ++k) sum += a[k] * b[k];
-  return sum;
-}
-
 double length3(const Six& z, std::size_t first) BURR_RT {
   return std::sqrt(math::sum_of_three(z[first] * z[first], z[first + 1] * z[first + 1],
                                       z[first + 2] * z[first + 2]));
-}
-
-// Whose row, and which.
-struct Name {
-  int whose = -1, index = -1;  // 0 a's bone, 1 b's bone, 2 a pair
-  bool operator==(const Name&) const = default;
-};
-
-struct Held {  // the rows in hand
-  Twelve row[kMost];
-  double push[kMost] = {};
-  Name name[kMost];
-  int count = 0;
-};
-
-// As in least_twist.cpp, with twelve unknowns.
-void over_rows(const Held& held, const Twelve& a, double* r) BURR_RT {
-  double l[kMost][kMost];
-  for (int i = 0; i < held.count; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double sum = dot12(held.row[i], held.row[j]);
-      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-      l[i][j] = i == j ? std::sqrt(std::max(sum, 1e-14)) : sum / l[j][j];
-    }
-    double sum = dot12(held.row[i], a);
-    for (int k = 0; k < i; ++k) sum -= l[i][k] * r[k];
-    r[i] = sum / l[i][i];
-  }
-  for (int i = held.count - 1; i >= 0; --i) {
-    double sum = r[i];
-    for (int k = i + 1; k < held.count; ++k) sum -= l[k][i] * r[k];
-    r[i] = sum / l[i][i];
-  }
-}
-
-void drop(Held& held, int which) BURR_RT {
-  for (int i = which; i + 1 < held.count; ++i) {
-    held.row[i] = held.row[i + 1];
-    held.push[i] = held.push[i + 1];
-    held.name[i] = held.name[i + 1];
-  }
-  --held.count;
-}
-
-bool take(Held& held, Twelve& y, const Twelve& a, double gap, const Name& name) BURR_RT {
-  double push = 0;
-  const double size = dot12(a, a);
-  for (int round = 0; round < 2 * kMost + 2; ++round) {
-    double r[kMost] = {};
-    over_rows(held, a, r);
-    Twelve way = a;
-    for (int i = 0; i < held.count; ++i)
-      for (std::size_t k = 0; k < 12; ++k) way[k] -= r[i] * held.row[i][k];
-    const double square = dot12(way, way);
-    double until_drop = std::numeric_limits<double>::infinity();
-    int first = -1;
-    for (int i = 0; i < held.count; ++i)
-      if (r[i] > 1e-12 && held.push[i] / r[i] < until_drop) {
-        until_drop = held.push[i] / r[i];
-        first = i;
-      }
-    const bool free = square > kDependent * size && held.count < kMost;
-    const double violated = -(dot12(a, y) + gap);
-    if (violated <= 0) return true;  // what was dropped made room
-    const double until_held = free ? violated / square : std::numeric_limits<double>::infinity();
-    const double step = std::min(until_drop, until_held);
-    if (!(step < std::numeric_limits<double>::infinity())) return false;
-    if (free)
-      for (std::size_t k = 0; k < 12; ++k) y[k] += step * way[k];
-    for (int i = 0; i < held.count; ++i) held.push[i] -= step * r[i];
-    push += step;
-    if (until_held <= until_drop) {
-      held.row[held.count] = a;
-      held.push[held.count] = push;
-      held.name[held.count++] = name;
-      return true;
-    }
-    drop(held, first);
-  }
-  return false;
 }
 
 Six bone_row(const Rows& rows, int j) BURR_RT {
@@ -135,107 +45,6 @@ struct TwoTools::Twist {
   int meets = 0;               // pairs it rests on
   bool solved = true, cut_short = false;
 };
-
-// ---- pairs of parts
-
-namespace {
-
-PartPlace place_of(const tool::Part& part, const tool::Shape& shape, const Vec3& c, const Quat& r,
-                   double voxel) BURR_RT {
-  return {shape, c + r * Vec3(part.tool_from_part.p / voxel),
-          math::product(r, part.tool_from_part.q)};
-}
-
-}  // namespace
-
-// use(place of a part of a, place of a part of b), for every pair of parts that touch
-template <class Use>
-void TwoTools::each_pair(const SixProxy& a, const SixProxy& b, const Use& use) BURR_RT {
-  for (int i = 0; i < a.tool_.count; ++i)
-    for (int j = 0; j < b.tool_.count; ++j) {
-      const tool::Part &one = a.tool_.parts[SixProxy::index(i)],
-                       &other = b.tool_.parts[SixProxy::index(j)];
-      if (one.role == tool::Role::seen || other.role == tool::Role::seen) continue;
-      const double voxel = a.grid_.voxel;
-      use(place_of(one, a.shape_[SixProxy::index(i)], a.c_, a.r_, voxel),
-          place_of(other, b.shape_[SixProxy::index(j)], b.c_, b.r_, voxel));
-    }
-}
-
-double TwoTools::least_gap(const SixProxy& a, const SixProxy& b, double below) const BURR_RT {
-  double least = std::numeric_limits<double>::infinity();
-  each_pair(a, b, [&least, below](const PartPlace& one, const PartPlace& other) BURR_RT {
-    least =
-        std::min(least, has_lattice(one, other) ? lattice_gap(one, other, std::min(below, least))
-                                                : part_gap(one, other).gap);
-  });
-  return least;
-}
-
-void TwoTools::add_pair(const PartGap& gap, const SixProxy& a, const SixProxy& b,
-                        double tolerance) BURR_RT {
-  if (count_ == kMostPairs) return;
-  Pair& pair = pairs_[static_cast<std::size_t>(count_++)];
-  const Vec3& n = gap.normal;
-  const Vec3 of_a = Vec3(gap.a - a.c_).cross(n) / a.lever_,
-             of_b = Vec3(gap.b - b.c_).cross(n) / b.lever_;
-  pair.a = {n.x(), n.y(), n.z(), of_a.x(), of_a.y(), of_a.z()};
-  pair.b = {-n.x(), -n.y(), -n.z(), -of_b.x(), -of_b.y(), -of_b.z()};
-  pair.normal = n;
-  pair.gap = gap.gap;
-  pair.tolerance = tolerance;
-}
-
-bool TwoTools::find_pairs(const SixProxy& a, const SixProxy& b, const SixProxy::Limits& limits_a,
-                          const SixProxy::Limits& limits_b) BURR_RT {
-  count_ = 0;
-  bool all = true;
-  const auto reach = [](const SixProxy& one, const SixProxy::Limits& limits) BURR_RT {
-    double farthest = 0;
-    for (int part = 0; part < one.tool_.count; ++part)
-      farthest = std::max(farthest, one.far_[SixProxy::index(part)]);
-    return limits.move + limits.turn * (farthest + limits.move + 1) + 0.01;
-  };
-  const double within = reach(a, limits_a) + reach(b, limits_b);
-  each_pair(
-      a, b, [this, &a, &b, &all, within](const PartPlace& one, const PartPlace& other) BURR_RT {
-        if (has_lattice(one, other)) {
-          const int found = lattice_gaps(one, other, within, points_);
-          all = all && found <= static_cast<int>(points_.size()) && count_ + found <= kMostPairs;
-          for (int n = 0; n < found && all; ++n)
-            add_pair(points_[static_cast<std::size_t>(n)], a, b, kTolerance);
-          return;
-        }
-        add_pair(part_gap(one, other), a, b, kExact);
-        PartGap ends[4];
-        const int more = gaps_at_ends(one, other, ends);
-        for (int n = 0; n < more; ++n) add_pair(ends[n], a, b, kExact);
-      });
-  return all;
-}
-
-bool TwoTools::near(const HeldTool& a, const HeldTool& b) BURR_RT {
-  // no move of this tick goes farther than what is wanted
-  const auto may_go = [](const HeldTool& one) BURR_RT {
-    const SixProxy& proxy = one.proxy;
-    const Six zd =
-        proxy.wanted(proxy.grid_.grid_from_world(one.hand.p),
-                     math::normalized(math::product(proxy.grid_.frame.q.conjugate(), one.hand.q)));
-    double farthest = 0;
-    for (int part = 0; part < proxy.tool_.count; ++part)
-      if (proxy.tool_.parts[SixProxy::index(part)].role != tool::Role::seen)
-        farthest = std::max(farthest, proxy.far_[SixProxy::index(part)]);
-    return std::sqrt(dot6(zd, zd)) * (1 + farthest / proxy.lever_);
-  };
-  const double may_meet = kMargin / a.proxy.grid_.voxel + may_go(a) + may_go(b);
-  const double gap = least_gap(a.proxy, b.proxy, may_meet);
-  apart_ = apart_ || gap >= 0;
-  const bool near = apart_ && gap < may_meet;
-  if (!near) rests_a_ = rests_b_ = {};
-  return near;
-}
-
-// ---- the programme
 
 // Goldfarb & Idnani as in least_twist.h, over the rows of both tools and of their pairs.
 void TwoTools::least(const SixProxy& a, const SixProxy& b, const Six& wanted_a, const Six& wanted_b,

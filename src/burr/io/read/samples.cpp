@@ -10,11 +10,15 @@
 #include <limits>
 #include <string>
 
-#include "burr/base/printable.h"
 #include "burr/io/read/calibration.h"
+#include "burr/io/read/label_numbers.h"
 
 namespace burr::io {
 namespace {
+
+using label_numbers::kLargestLabel;
+using label_numbers::kMostLabels;
+using label_numbers::kWhole;
 
 // Beyond the values of any scanner; results computed from values up to this (weighted sums of a
 // cubic along three axes) stay finite in a float.
@@ -64,147 +68,6 @@ void convert(const std::uint8_t* bytes, std::size_t n, const SampleFormat& forma
       return convert<float>(bytes, n, format, out);
     case SampleType::f64:
       return convert<double>(bytes, n, format, out);
-  }
-}
-
-// Labels are flat: few different numbers, and most voxels have the number of their neighbour. Grey
-// values, even of 8 bit, change from voxel to voxel inside the body.
-bool looks_like_labels(const Voxels<std::uint8_t>& bytes, std::ptrdiff_t most_different) {
-  std::array<std::size_t, 256> count{};
-  for (const std::uint8_t b : bytes) ++count[b];
-  const auto different =
-      std::count_if(count.begin(), count.end(), [](std::size_t n) { return n > 0; });
-  if (different <= 2) return different == 2;
-  if (different > most_different) return false;
-  std::size_t pairs = 0, same = 0;
-  for (std::size_t v = 1; v < bytes.size(); ++v) {
-    if (bytes[v] == 0 && bytes[v - 1] == 0) continue;
-    ++pairs;
-    same += bytes[v] == bytes[v - 1] ? 1 : 0;
-  }
-  return pairs > 200 && 10 * same > 7 * pairs;
-}
-
-constexpr std::size_t kMostLabels = 255;
-// Whole numbers that went through a float, a scale or a resampling that changed nothing else.
-constexpr double kWhole = 1e-3, kNearlyWhole = 0.05;
-constexpr std::int64_t kLargestLabel = std::int64_t{1} << 24;  // whole numbers are exact up to here
-
-// The whole numbers that the values are, or nearly are.
-struct WholeNumbers {
-  std::vector<std::int64_t> all;  // sorted; one more than kMostLabels + 1 where there are too many
-  double off = 0;                 // largest distance from a whole number, over its tolerance
-  bool negative = false;
-  bool complete = false;  // all values were looked at: none is far from a whole number
-  [[nodiscard]] bool labels() const {
-    return off <= 1 && !negative && all.size() <= kMostLabels + 1 && all.back() <= kLargestLabel;
-  }
-};
-
-WholeNumbers whole_numbers(const Voxels<float>& values) {
-  WholeNumbers out;
-  float before = std::numeric_limits<float>::quiet_NaN();
-  for (const float value : values) {
-    if (value == before) continue;
-    before = value;
-    const double whole = std::round(double{value});
-    if (!(std::abs(whole) < 1e15)) {
-      out.off = std::numeric_limits<double>::infinity();
-      return out;
-    }
-    out.off = std::max(out.off,
-                       std::abs(double{value} - whole) / std::max(kWhole, 1e-6 * std::abs(whole)));
-    if (out.off > kNearlyWhole / kWhole) return out;
-    const auto number = static_cast<std::int64_t>(whole);
-    out.negative = out.negative || number < 0;
-    const auto place = std::lower_bound(out.all.begin(), out.all.end(), number);
-    if (place != out.all.end() && *place == number) continue;
-    out.all.insert(place, number);
-    if (out.all.size() > kMostLabels + 1) return out;
-  }
-  out.complete = true;
-  return out;
-}
-
-// Whole numbers from 0 up that are the same in nearly all neighbours, as labels are however many.
-// The largest number does not count: a scan that is cut off there is flat too.
-bool flat_whole_numbers(const Voxels<float>& values) {
-  float most = 0;
-  for (const float value : values) {
-    if (!(value >= 0) || value != std::floor(value)) return false;
-    most = std::max(most, value);
-  }
-  std::size_t pairs = 0, same = 0;
-  for (std::size_t v = 1; v < values.size(); ++v) {
-    if (values[v] == values[v - 1] && (values[v] == 0 || values[v] == most)) continue;
-    ++pairs;
-    same += values[v] == values[v - 1] ? 1 : 0;
-  }
-  return pairs > 200 && same > pairs / 5 * 4;
-}
-
-// The numbers 1..255 that stand for the file's labels: those up to 255 keep theirs, the others get
-// the lowest that are free.
-std::vector<std::uint8_t> short_numbers(const std::vector<std::int64_t>& file) {
-  std::array<bool, 256> taken{};
-  for (const std::int64_t value : file)
-    if (value <= 255) taken[static_cast<std::size_t>(value)] = true;
-  taken[0] = true;
-  std::vector<std::uint8_t> out;
-  std::size_t free = 0;
-  for (const std::int64_t value : file) {
-    if (value <= 255) {
-      out.push_back(static_cast<std::uint8_t>(value));
-      continue;
-    }
-    while (taken[free]) ++free;
-    taken[free] = true;
-    out.push_back(static_cast<std::uint8_t>(free));
-  }
-  return out;
-}
-
-// Names of values above 255, where no voxel has such a value.
-void drop_long_numbers(Scan& scan) {
-  std::erase_if(scan.label_names, [](const Label& label) { return label.value > 255; });
-}
-
-// Names follow their labels to the new numbers; labels without a name get an entry that knows the
-// number in the file.
-void renumber_names(Scan& scan, const std::vector<std::int64_t>& file,
-                    const std::vector<std::uint8_t>& numbers) {
-  std::vector<Label> names;
-  std::string list;
-  std::size_t changed = 0;
-  for (std::size_t n = 0; n < file.size(); ++n) {
-    if (file[n] == 0) continue;
-    bool named = false;
-    std::string name;
-    for (const Label& label : scan.label_names) {
-      if (label.value != file[n]) continue;
-      if (!named) name = label.name;
-      named = true;
-      names.push_back(label);
-      names.back().value = numbers[n];
-      names.back().in_file = file[n] > 255 ? file[n] : 0;
-    }
-    if (file[n] <= 255) continue;
-    if (!named) {
-      names.push_back({.value = numbers[n], .name = "", .colour = volume::Tissue{}.colour});
-      names.back().in_file = file[n];
-    }
-    constexpr std::size_t kShown = 4;
-    if (++changed <= kShown)
-      list += fmt::format("{}{} is now {}{}", changed == 1 ? "" : ", ", file[n], numbers[n],
-                          name.empty() ? "" : " (" + base::printable(name) + ")");
-    else if (changed == kShown + 1)
-      list += " ...";
-  }
-  if (changed > 0) {
-    scan.label_names = std::move(names);
-    scan.notices.push_back(
-        fmt::format("burr numbers labels up to 255, so {} of the file has a new number: {}.",
-                    changed == 1 ? "one label" : fmt::format("each of {} labels", changed), list));
   }
 }
 

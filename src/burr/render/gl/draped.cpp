@@ -6,7 +6,7 @@ namespace burr::render::gl {
 
 namespace {
 
-// kinds as in gl/shaders.h: bone from 1 (dry) to 0.82 (wet)
+// kinds as in gl/skin_shaders.h: bone from 1 (dry) to 0.82 (wet)
 constexpr float kMoist = 0.94F, kSteel = 0.83F;
 
 }  // namespace

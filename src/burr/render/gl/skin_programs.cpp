@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "burr/render/gl/shaders.h"
+#include "burr/render/gl/skin_shaders.h"
 
 namespace burr::render::gl {
 

@@ -1,0 +1,208 @@
+// The bone at a moment: from the newest keyframe before it, by the changes since then. Reading in order is player.cpp's.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "burr/record/bone_blob.h"
+#include "burr/record/player.h"
+
+namespace burr::record {
+
+using volume::BrickIndex;
+
+Error Player::broken_before(std::uint64_t tick) const {
+  std::string again = "and there is no later keyframe";
+  for (const std::size_t c : keyframe_chunks_) {
+    if (start_tick(c) <= tick) continue;
+    again = fmt::format("and the next keyframe is at {:.3f} s",
+                        static_cast<double>(start_tick(c)) / info_.rate_hz);
+    break;
+  }
+  return error(
+      fmt::format("{}: the bone at {:.3f} s cannot be shown, because earlier changes are damaged "
+                  "{}; choose another moment, or replay the session",
+                  path_, static_cast<double>(tick) / info_.rate_hz, again));
+}
+
+// Loads the newest complete keyframe at or before the tick. False: there is none.
+bool Player::load_keyframe(std::uint64_t tick) {
+  const auto& chunks = reader_->chunks();
+  std::optional<std::uint64_t> not_after;  // keyframes found incomplete, and all later ones
+  for (;;) {
+    // its chunks all have the same time
+    std::vector<std::size_t> parts;
+    std::optional<std::uint64_t> time;
+    for (auto c = keyframe_chunks_.rbegin(); c != keyframe_chunks_.rend(); ++c) {
+      const std::uint64_t start = chunks[*c].start_ns;
+      if (start_tick(*c) > tick || (not_after && start >= *not_after)) continue;
+      if (time && start != *time) break;
+      time = start;
+      parts.push_back(*c);
+    }
+    if (!time) return false;
+
+    State state;
+    std::uint32_t wanted = 1, seen = 0;
+    std::uint64_t batch = 0;
+    bool good = true;
+    for (const std::size_t c : parts) {
+      const auto chunk = reader_->read_chunk(c);
+      if (!chunk) {
+        notice(chunk.error().text);
+        good = false;
+        break;
+      }
+      Bricks bricks;
+      for (const McapMessage& message : chunk->messages) {
+        if (message.channel != keyframe_channel_ || message.time_ns != *time) continue;
+        good = good && decode_bricks(message.data, bricks);
+        if (!good) break;
+        wanted = bricks.parts;
+        batch = bricks.batch;
+        ++seen;
+        for (std::size_t i = 0; i < bricks.brick.size(); ++i) {
+          good = good && bricks.content[i].crc() == bricks.crc[i];
+          state[bricks.brick[i]] = bricks.content[i];
+        }
+      }
+    }
+    if (good && seen == wanted) {
+      state_ = std::move(state);
+      state_tick_ = tick_of_ns(*time);
+      place_ = {};
+      place_.next_batch = batch + 1;
+      const auto from =
+          std::partition_point(change_chunks_.begin(), change_chunks_.end(),
+                               [&](std::size_t c) { return chunks[c].end_ns < *time; });
+      place_.chunk = static_cast<std::size_t>(from - change_chunks_.begin());
+      state_good_ = true;
+      return true;
+    }
+    not_after = *time;
+  }
+}
+
+// Applies the changes up to and including the tick.
+Status Player::advance(std::uint64_t tick) {
+  for (; place_.chunk < change_chunks_.size(); ++place_.chunk, place_.message = 0) {
+    const auto chunk = reader_->read_chunk(change_chunks_[place_.chunk]);
+    if (!chunk) {  // its content up to this tick is unknown; if it begins later, it is not needed
+      notice(chunk.error().text);
+      if (start_tick(change_chunks_[place_.chunk]) <= tick) return broken_before(tick);
+      break;
+    }
+    for (; place_.message < chunk->messages.size(); ++place_.message, place_.row = 0) {
+      const McapMessage& message = chunk->messages[place_.message];
+      if (message.channel != change_channel_) continue;
+      Bricks bricks;
+      if (!decode_bricks(message.data, bricks)) {
+        notice(path_ + ": a message of changed bricks is not valid");
+        return broken_before(tick);
+      }
+      if (bricks.batch < place_.next_batch) continue;  // already in the keyframe
+      if (bricks.batch > place_.next_batch) return broken_before(tick);
+      for (; place_.row < bricks.tick.size(); ++place_.row) {
+        if (bricks.tick[place_.row] > tick) {
+          state_tick_ = tick;
+          return fine();
+        }
+        BrickContent& content = state_[bricks.brick[place_.row]];
+        apply_xor(content, bricks.content[place_.row]);
+        if (content.crc() != bricks.crc[place_.row]) return broken_before(tick);
+      }
+      ++place_.next_batch;
+    }
+  }
+  state_tick_ = tick;
+  return fine();
+}
+
+Status Player::show(volume::Bone& bone) {
+  const auto original = [&](BrickIndex brick) -> const BrickContent& {
+    const auto [at, fresh] = originals_.try_emplace(brick);
+    if (fresh) {
+      BrickContent& content = at->second;
+      if (const volume::Field* field = bone.brick_field(brick); field != nullptr) {
+        std::memcpy(content.field.voxel, field, sizeof content.field.voxel);
+        std::memcpy(content.tissue.data(), bone.brick_tissue(brick), content.tissue.size());
+      }
+      content.has_tissue = true;
+    }
+    return at->second;
+  };
+  const auto write = [&](BrickIndex brick, const BrickContent& content, const BrickContent& base) {
+    if (bone.ensure_slot(brick) == volume::kNoSlot) return false;
+    if (std::memcmp(bone.brick_field(brick), content.field.voxel, sizeof content.field.voxel) != 0)
+      bone.write_brick(brick, content.field);
+    // where the recording has no tissue, that of the bone as it was opened counts
+    const auto& tissue = content.has_tissue ? content.tissue : base.tissue;
+    const math::Ijk first = bone.brick_ijk(brick);
+    if (std::memcmp(bone.brick_tissue(brick), tissue.data(), tissue.size()) == 0) return true;
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      const math::Ijk ijk = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
+      if (bone.grid().contains(ijk))
+        bone.set_tissue(ijk.x(), ijk.y(), ijk.z(), tissue[static_cast<std::size_t>(v)]);
+    }
+    return true;
+  };
+  for (const auto& [brick, content] : state_) {
+    if (brick < 0 || brick >= bone.brick_count())
+      return error(fmt::format(
+          "{}: changes brick {}, which this bone does not have; give the right bone with --volume",
+          path_, brick));
+    if (!write(brick, content, original(brick)))
+      return error(fmt::format(
+          "{}: the bone has no space for deposited material; open it with reserve_bricks {}", path_,
+          std::max<std::uint64_t>(info_.volume.recipe.reserve_bricks, 1)));
+  }
+  // bricks that an earlier call changed and that are unchanged at this moment
+  for (const auto& [brick, content] : originals_)
+    if (!state_.contains(brick) && !write(brick, content, content)) break;
+  return fine();
+}
+
+Status Player::bone_at(double t_s, volume::Bone& bone) {
+  if (bone.grid().size != info_.volume.grid.size)
+    return error(fmt::format(
+        "{}: the bone of the recording has {} x {} x {} voxels, but this one has {} x {} x {}; "
+        "give the right bone with --volume",
+        path_, info_.volume.grid.size.x(), info_.volume.grid.size.y(), info_.volume.grid.size.z(),
+        bone.grid().size.x(), bone.grid().size.y(), bone.grid().size.z()));
+  const std::uint64_t tick = tick_of(t_s);
+
+  // forward from the present state, unless a keyframe is nearer
+  bool restart = !state_good_ || tick < state_tick_;
+  if (!restart)
+    for (const std::size_t c : keyframe_chunks_)
+      restart = restart || (start_tick(c) <= tick && start_tick(c) > state_tick_);
+  if (restart) {
+    state_good_ = false;
+    if (!load_keyframe(tick)) {
+      state_.clear();
+      place_ = {};
+    }
+  }
+  Status reached = advance(tick);
+  state_good_ = reached.ok();
+  if (!reached.ok()) return reached;
+  return show(bone);
+}
+
+Result<std::unique_ptr<volume::Bone>> Player::embedded_bone(std::size_t reserve_bricks) const {
+  const auto& attachments = reader_->attachments();
+  for (std::size_t i = 0; i < attachments.size(); ++i) {
+    if (attachments[i].name != kBoneAttachment) continue;
+    const auto blob = reader_->read_attachment(i);
+    if (!blob) return blob.error();
+    return bone_from_blob(*blob, reserve_bricks, path_);
+  }
+  return error(path_ + ": holds no bone; give the scan of the bone with --volume");
+}
+
+}  // namespace burr::record
