@@ -33,13 +33,14 @@ if(BURR_APP)
     burr_glue(${target})
   endfunction()
 
-  # the parts that tests use as well, compiled once: the window, the report, the doctor, and what they need
-  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/film_file commands/hand_options commands/html_page commands/interrupt commands/law_choice commands/outputs commands/picture_size commands/piece_words commands/recording commands/session_words commands/tool_options commands/work school/products serve/stations
+  # the parts that tests use as well, compiled once: the floors below the subcommands, the window, and of the trials what is named
+  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/session_words school/products serve/stations
     devices/trial devices/trial_words doctor/run_in_process doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
-  file(GLOB_RECURSE window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
-  file(GLOB report CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/report/*.cpp)
-  list(APPEND BURR_APP_PARTS ${window} ${report})
+  foreach(floor words guidance report shared window)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/${floor}/*.cpp)
+    list(APPEND BURR_APP_PARTS ${sources})
+  endforeach()
   list(REMOVE_ITEM BURR_APP ${BURR_APP_PARTS})
   add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS} ${CMAKE_BINARY_DIR}/words/word_texts.cpp)
   burr_of_program(burr_app)

@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
-"""Prints which rooms of src/burr include which, and fails where this differs from docs/develop/architecture.md.
+"""Prints which rooms of src/burr and which folders of apps/burr include which, and fails where this differs from
+docs/develop/architecture.md.
 
     scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr and apps; default: this checkout
     scripts/rooms.py --above ROOM         prints ROOM and the rooms that include it, as far as they have tests (./test --room)
 
 Fails on a room that is not listed, an arrow that is not listed, rooms that include each other in a circle, files that
-include each other in a circle (in src/burr and in apps; a header and the source beside it count as one), and a
-third-party header in the wrong place: graphics and headsets only in render/gl, the loudspeaker only in sound, file
+include each other in a circle (in src/burr and in apps; a header and the source beside it count as one), a folder of
+apps/burr that is on no floor or includes one that is not on a lower floor, and a third-party header in the wrong place: graphics and headsets only in render/gl, the loudspeaker only in sound, file
 formats only in io, a vendor's library only in its own folder.
 """
 import collections
+import os
 import pathlib
 import re
 import sys
@@ -73,6 +75,24 @@ ONLY = {
     ("scoring", "record"): {"player.h", "course.h"},
     ("school", "record"): {"identity.h"},
 }
+
+# The floors of apps/burr, the lowest first: a folder includes itself and folders of lower floors, so none of its own
+# floor. "." is main.cpp.
+FLOORS = [
+    "words window/hands window/station",
+    "guidance report",
+    "shared",
+    "batch bench devices school",
+    "doctor serve",
+    "verify",
+    "people",
+    "window/ui",
+    "window/parts",
+    "window/import window/mill window/rate window/replay window/review window/start",
+    "window/shell",
+    "commands",
+    ".",
+]
 
 # Third-party headers and the folders that may include them.
 ELSEWHERE = [
@@ -182,6 +202,29 @@ def look(root):
     return doors, wrong
 
 
+def look_at_floors(app):
+    """The same for the folders of apps/burr."""
+    level = {folder: number for number, floor in enumerate(FLOORS) for folder in floor.split()}
+    doors, wrong = collections.Counter(), []
+    files = dict(read(app))
+    for path, names in files.items():
+        where, folder = f"apps/burr/{path}", path.parent.as_posix()
+        if folder not in level:
+            wrong.append(f"{where}: folder '{folder}' is on no floor; see docs/develop/architecture.md, section 2")
+            continue
+        for _, name in names:
+            places = [pathlib.Path(os.path.normpath(place)) for place in (path.parent / name, name)]
+            found = next((place for place in places if place in files), None)
+            other = found.parent.as_posix() if found else folder
+            if other == folder:
+                continue
+            doors[folder, other] += 1
+            if other in level and level[other] >= level[folder]:
+                same = "the same" if level[other] == level[folder] else "a higher"
+                wrong.append(f"{where}: includes {name}; {other} is on {same} floor")
+    return doors, wrong
+
+
 def file_arrows(root):
     """{unit: units that it includes}; a unit is a header and its source: a path from ROOT without its suffix."""
     known = {}
@@ -251,10 +294,15 @@ def main():
         print(f"rooms.py: {root}: no such folder", file=sys.stderr)
         return 2
     doors, wrong = look(root)
+    app_doors, app_wrong = look_at_floors(checkout / "apps" / "burr")
+    wrong += app_wrong
     rooms = sorted({p.parts[0] for p, _ in read(root) if len(p.parts) > 1}, key=lambda r: list(ALLOWED).index(r) if r in ALLOWED else 99)
     for room in rooms:
         print(f"{room:9} -> " + (", ".join(f"{b} ({n})" for (a, b), n in sorted(doors.items()) if a == room) or "nobody"))
-    round_trips = circles(doors)
+    folders = [folder for floor in FLOORS for folder in floor.split()]
+    for folder in sorted({a for a, _ in app_doors}, key=folders.index):
+        print(f"apps/burr/{folder} -> " + ", ".join(f"{b} ({n})" for (a, b), n in sorted(app_doors.items()) if a == folder))
+    round_trips = circles(doors) + circles(app_doors)
     file_trips = file_circles(file_arrows(checkout))
     if round_trips or not file_trips:
         print("circles: " + (", ".join(round_trips) or "none"))

@@ -104,9 +104,9 @@ file(GLOB bones CONFIGURE_DEPENDS ${src}/phantom/*.cpp)
 list(REMOVE_ITEM bones ${phantom})
 burr_web_parts(burr_score_parts ${score} ${bones} ${src}/workshop/label_check.cpp ${src}/workshop/allowed.cpp
   ${src}/workshop/piece_plan.cpp ${src}/sim/move_pieces.cpp ${src}/base/text_file.cpp ${src}/base/markup.cpp
-  ${src}/base/base64.cpp ${app}/commands/score_words.cpp ${app}/commands/piece_words.cpp ${app}/window/mill/steps.cpp
-  ${app}/window/mill/step_rings.cpp ${app}/window/mill/technique.cpp ${src}/workshop/spared_distance.cpp
-  ${app}/window/mill/suits.cpp ${app}/window/shell/words.cpp ${app}/window/shell/anatomy.cpp
+  ${src}/base/base64.cpp ${app}/report/score_words.cpp ${app}/report/piece_words.cpp ${app}/guidance/steps.cpp
+  ${app}/guidance/step_rings.cpp ${app}/guidance/technique.cpp ${src}/workshop/spared_distance.cpp
+  ${app}/guidance/suits.cpp ${app}/words/words.cpp ${app}/words/anatomy.cpp
   ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/words/word_texts.cpp
   ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 target_compile_options(burr_score_parts PRIVATE -Os)

@@ -16,7 +16,7 @@
 #include "report/report_words.h"
 #include "report/self_marks.h"
 #include "support/places.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

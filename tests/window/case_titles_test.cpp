@@ -9,8 +9,8 @@
 #include "burr/scenario/case.h"
 #include "burr/scenario/open_lesson.h"
 #include "burr/workshop/label_check.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "words/anatomy.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

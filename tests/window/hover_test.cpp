@@ -18,9 +18,9 @@
 #include "burr/sim/session.h"
 #include "burr/volume/sample.h"
 #include "burr/workshop/live_surface.h"
-#include "commands/work.h"
+#include "shared/make_ready.h"
+#include "shared/work.h"
 #include "window/hands/mouse_aim.h"
-#include "window/mill/make_ready.h"
 
 namespace burr::app {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "burr/base/progress.h"
-#include "commands/work.h"
+#include "shared/make_ready.h"
+#include "shared/work.h"
 #include "support/folder.h"
-#include "window/mill/make_ready.h"
-#include "window/start/sessions.h"
+#include "window/parts/sessions.h"
 
 namespace burr::app {
 namespace {

@@ -177,7 +177,7 @@ TEST(Scores, TheWindowKnowsNothingOfThemButWhetherAStepIsDone) {
     if (entry.path().filename() != "sessions.cpp") {
       EXPECT_EQ(text.find("\"report/"), text.npos) << entry.path();
     }
-    if (entry.path().filename() != "pages.cpp") {
+    if (folder != "shell") {  // the order of pages
       EXPECT_EQ(text.find("window/review/"), text.npos) << entry.path();
     }
   }

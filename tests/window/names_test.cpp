@@ -18,7 +18,7 @@
 #include "window/mill/orientation_cube.h"
 #include "window/mill/pinned_labels.h"
 #include "window/mill/structures.h"
-#include "window/shell/anatomy.h"
+#include "words/anatomy.h"
 
 namespace burr::app {
 namespace {

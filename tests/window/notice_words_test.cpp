@@ -7,7 +7,7 @@
 #include <string>
 
 #include "user.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -26,10 +26,10 @@
 #include "report/questions.h"
 #include "support/places.h"
 #include "user.h"
+#include "window/parts/sessions.h"
 #include "window/review/enter_session.h"
 #include "window/review/review_page.h"
 #include "window/review/self_marks_page.h"
-#include "window/start/sessions.h"
 #include "window/start/start_page.h"
 
 namespace burr::app {

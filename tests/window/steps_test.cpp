@@ -1,5 +1,5 @@
 // The steps of a case, and the sentence about technique: no window is needed.
-#include "window/mill/steps.h"
+#include "guidance/steps.h"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,10 @@
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/scenario/open_lesson.h"
-#include "window/mill/injury.h"
+#include "guidance/injury.h"
+#include "guidance/step_watch.h"
+#include "guidance/technique.h"
 #include "window/mill/step_light.h"
-#include "window/mill/step_watch.h"
-#include "window/mill/technique.h"
 
 namespace burr::app {
 namespace {

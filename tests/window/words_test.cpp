@@ -1,5 +1,5 @@
 // The texts of the window: every language has all of them, and fills in the same values.
-#include "window/shell/words.h"
+#include "words/words.h"
 
 #include <gtest/gtest.h>
 

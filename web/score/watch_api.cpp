@@ -27,12 +27,12 @@
 #include "burr/workshop/allowed.h"
 #include "burr/workshop/spared.h"
 #include "burr/workshop/spared_distance.h"
+#include "guidance/injury.h"
+#include "guidance/suits.h"
+#include "guidance/technique.h"
 #include "report/scored.h"
-#include "window/mill/injury.h"
-#include "window/mill/suits.h"
-#include "window/mill/technique.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "words/anatomy.h"
+#include "words/words.h"
 #include "work_of_page.h"
 
 namespace {

@@ -24,14 +24,14 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
-#include "commands/bone_option.h"
 #include "commands/case_new.h"
-#include "commands/command.h"
-#include "commands/counted.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
-#include "commands/volume_words.h"
 #include "report/scored.h"
+#include "shared/bone_option.h"
+#include "shared/command.h"
+#include "shared/counted.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {

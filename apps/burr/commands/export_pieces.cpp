@@ -11,9 +11,9 @@
 
 #include "burr/volume/pieces.h"
 #include "burr/volume/volume_of.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
-#include "commands/piece_words.h"
+#include "report/piece_words.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
 
 namespace burr::app {
 namespace {

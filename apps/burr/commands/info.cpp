@@ -14,11 +14,11 @@
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/piece_words.h"
 #include "commands/session_words.h"
-#include "commands/volume_words.h"
+#include "report/piece_words.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/volume_words.h"
 #include "window/replay/playback.h"
 
 namespace burr::app {

@@ -16,10 +16,10 @@
 #include "burr/volume/pieces.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recording.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/piece_words.h"
-#include "commands/volume_words.h"
+#include "report/piece_words.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {

@@ -12,15 +12,15 @@
 
 #include "burr/base/new_file.h"
 #include "burr/base/printable.h"
-#include "commands/command.h"
-#include "commands/outputs.h"
-#include "commands/score_words.h"
-#include "commands/volume_words.h"
 #include "report/make_report.h"
 #include "report/report_page.h"
+#include "report/score_words.h"
 #include "report/scored.h"
 #include "report/self_marks.h"
-#include "window/shell/words.h"
+#include "shared/command.h"
+#include "shared/outputs.h"
+#include "shared/volume_words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -23,13 +23,13 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
-#include "commands/bone_option.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/piece_words.h"
-#include "commands/score_words.h"
-#include "commands/volume_words.h"
+#include "report/piece_words.h"
+#include "report/score_words.h"
 #include "report/scored.h"
+#include "shared/bone_option.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {

@@ -22,11 +22,11 @@
 #include "burr/school/study/reliability.h"
 #include "burr/school/study/standards.h"
 #include "burr/school/study/table.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
 #include "school/agreement.h"
 #include "school/store_command.h"
 #include "school/study_source.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

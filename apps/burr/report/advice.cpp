@@ -7,7 +7,7 @@
 
 #include "burr/metrics/measured.h"
 #include "report/report_words.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -16,7 +16,7 @@
 #include "burr/metrics/region.h"
 #include "burr/metrics/stroke_direction.h"
 #include "report/report_words.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

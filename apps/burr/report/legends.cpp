@@ -4,7 +4,7 @@
 
 #include "report/report_colours.h"
 #include "report/report_pictures.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -20,7 +20,7 @@
 #include "report/report_pictures.h"
 #include "report/report_words.h"
 #include "report/time_line.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

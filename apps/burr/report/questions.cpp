@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "burr/scoring/rubric.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 

@@ -8,7 +8,7 @@
 #include "burr/base/markup.h"
 #include "report/evidence_strip.h"
 #include "report/time_line.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "burr/volume/sample.h"
 #include "burr/workshop/work_view.h"
 #include "report/report_colours.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <utility>
 
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

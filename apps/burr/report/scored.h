@@ -17,7 +17,7 @@
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"
 #include "burr/volume/bone.h"
-#include "commands/piece_words.h"
+#include "report/piece_words.h"
 
 namespace burr::app {
 

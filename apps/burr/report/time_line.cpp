@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "burr/record/course.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -29,10 +29,6 @@
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
-#include "commands/command.h"
-#include "commands/counted.h"
-#include "commands/outputs.h"
-#include "commands/volume_words.h"
 #include "report/marked.h"
 #include "report/report_page.h"
 #include "school/decide.h"
@@ -40,7 +36,11 @@
 #include "school/session_of.h"
 #include "school/store_command.h"
 #include "school/xapi.h"
-#include "window/shell/words.h"
+#include "shared/command.h"
+#include "shared/counted.h"
+#include "shared/outputs.h"
+#include "shared/volume_words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -17,10 +17,10 @@
 #include "burr/school/study/reliability.h"
 #include "burr/school/study_tables.h"
 #include "burr/school/uuid.h"
-#include "commands/json_line.h"
 #include "school/agreement.h"
 #include "school/products.h"
 #include "serve/school_api.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

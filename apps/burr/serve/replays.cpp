@@ -19,10 +19,10 @@
 #include "burr/school/forget.h"
 #include "burr/school/uuid.h"
 #include "burr/workshop/recording.h"
-#include "commands/json_line.h"
 #include "report/evidence.h"
 #include "report/scored.h"
 #include "report/time_line.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

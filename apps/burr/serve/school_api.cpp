@@ -18,8 +18,8 @@
 #include "burr/school/study/curve.h"
 #include "burr/scoring/measure_list.h"
 #include "burr/scoring/rubric.h"
-#include "commands/json_line.h"
 #include "school/practice_words.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

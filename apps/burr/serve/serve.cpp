@@ -18,14 +18,14 @@
 #include "burr/school/store.h"
 #include "burr/serve/guard.h"
 #include "burr/serve/http_server.h"
-#include "commands/built_page.h"
-#include "commands/command.h"
 #include "school/store_command.h"
 #include "serve/page_files.h"
 #include "serve/rating_api.h"
 #include "serve/replays.h"
 #include "serve/school_api.h"
 #include "serve/stations.h"
+#include "shared/built_page.h"
+#include "shared/command.h"
 
 namespace burr::app {
 namespace {

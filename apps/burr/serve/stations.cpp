@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/serve/guard.h"
-#include "commands/json_line.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "window/import/import_page.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -9,7 +9,7 @@
 #include "burr/base/printable.h"
 #include "window/import/import_page.h"
 #include "window/import/notice_words.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

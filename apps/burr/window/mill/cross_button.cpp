@@ -1,6 +1,6 @@
 #include "window/mill/cross_button.h"
 
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 

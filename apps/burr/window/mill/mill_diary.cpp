@@ -3,7 +3,7 @@
 #include "burr/render/stereo.h"
 #include "burr/workshop/seen.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "burr/render/pick.h"
 #include "burr/workshop/work_view.h"
-#include "window/mill/make_ready.h"
+#include "shared/make_ready.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

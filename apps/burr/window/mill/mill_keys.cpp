@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "window/mill/mill.h"
-#include "window/shell/printed_keys.h"
-#include "window/shell/words.h"
+#include "window/ui/printed_keys.h"
+#include "words/words.h"
 
 namespace burr::app {
 

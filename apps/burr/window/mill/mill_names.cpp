@@ -7,7 +7,7 @@
 #include "window/mill/mill.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/task_panel.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 

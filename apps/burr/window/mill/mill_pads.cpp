@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

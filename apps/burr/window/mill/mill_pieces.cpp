@@ -6,7 +6,7 @@
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/suction_hand.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 

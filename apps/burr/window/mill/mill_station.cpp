@@ -4,8 +4,8 @@
 
 #include "burr/render/pick.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
 #include "window/station/station_link.h"
+#include "words/words.h"
 
 namespace burr::app {
 

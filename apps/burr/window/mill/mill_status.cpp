@@ -17,8 +17,8 @@
 #include "window/mill/mill.h"
 #include "window/mill/steps_panel.h"
 #include "window/mill/views_bar.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "words/anatomy.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "burr/record/diary.h"
 #include "burr/record/private_text.h"
+#include "guidance/suits.h"
 #include "window/mill/mill.h"
-#include "window/mill/see_through.h"
 #include "window/mill/steps_panel.h"
-#include "window/mill/suits.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "window/parts/see_through.h"
+#include "words/anatomy.h"
+#include "words/words.h"
 
 namespace burr::app {
 

@@ -9,7 +9,7 @@
 #include "burr/workshop/tool_places.h"
 #include "window/mill/mill.h"
 #include "window/mill/rack_panel.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "window/mill/side_panel.h"
 #include "window/mill/titled_panel.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

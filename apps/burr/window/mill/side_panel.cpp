@@ -6,8 +6,8 @@
 #include <string>
 
 #include "window/mill/cross_button.h"
-#include "window/mill/hud.h"
-#include "window/shell/words.h"
+#include "window/parts/hud.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

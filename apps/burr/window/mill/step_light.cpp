@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "window/mill/measuring.h"
-#include "window/shell/anatomy.h"
+#include "window/parts/measuring.h"
+#include "words/anatomy.h"
 
 namespace burr::app {
 namespace {

@@ -14,8 +14,8 @@
 #include "burr/render/scene.h"
 #include "burr/scenario/lesson.h"
 #include "burr/volume/tissue.h"
-#include "window/mill/step_rings.h"
-#include "window/shell/ui.h"
+#include "guidance/step_rings.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "window/mill/hud.h"
+#include "guidance/suits.h"
 #include "window/mill/side_panel.h"
-#include "window/mill/suits.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "window/parts/hud.h"
+#include "words/anatomy.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "window/mill/steps.h"
-#include "window/shell/ui.h"
+#include "guidance/steps.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "window/mill/hud.h"
 #include "window/mill/side_panel.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "window/parts/hud.h"
+#include "words/anatomy.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "burr/workshop/tool_picture.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 

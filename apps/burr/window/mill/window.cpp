@@ -10,9 +10,9 @@
 #include "burr/render/picture.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/work_view.h"
-#include "commands/interrupt.h"
+#include "shared/interrupt.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 

@@ -11,7 +11,7 @@
 #include "burr/surface/worker.h"
 #include "window/hands/mouse_hand.h"
 #include "window/mill/window_options.h"
-#include "window/shell/desk.h"
+#include "window/ui/desk.h"
 
 namespace burr::app {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 

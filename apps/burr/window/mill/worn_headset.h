@@ -13,7 +13,7 @@
 #include "burr/render/headset.h"
 #include "burr/render/scene.h"
 #include "window/hands/mouse_hand.h"
-#include "window/shell/desk.h"
+#include "window/ui/desk.h"
 
 namespace burr::app {
 

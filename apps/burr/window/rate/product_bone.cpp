@@ -5,7 +5,7 @@
 #include "burr/render/bone_scene.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/recording.h"
-#include "commands/piece_words.h"
+#include "report/piece_words.h"
 #include "report/scored.h"
 
 namespace burr::app {

@@ -14,14 +14,14 @@
 #include "burr/render/picture.h"
 #include "burr/school/ratings.h"
 #include "burr/school/store.h"
-#include "commands/interrupt.h"
 #include "school/products.h"
+#include "shared/interrupt.h"
 #include "window/rate/product_bone.h"
 #include "window/rate/rate_panel.h"
-#include "window/shell/loading.h"
-#include "window/shell/texture.h"
-#include "window/shell/words.h"
-#include "window/start/start_page.h"
+#include "window/ui/loading.h"
+#include "window/ui/texture.h"
+#include "words/case_name.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "window/replay/timeline_panel.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "words/anatomy.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

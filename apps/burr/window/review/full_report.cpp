@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 

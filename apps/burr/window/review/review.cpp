@@ -3,7 +3,6 @@
 #include <SDL2/SDL.h>
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -12,25 +11,20 @@
 #include <system_error>
 #include <utility>
 
-#include "burr/render/camera.h"
 #include "burr/render/picture.h"
-#include "commands/interrupt.h"
 #include "report/marked.h"
 #include "report/questions.h"
-#include "window/replay/playback.h"
-#include "window/replay/replay_page.h"
+#include "shared/interrupt.h"
 #include "window/review/full_report.h"
 #include "window/review/review_page.h"
 #include "window/review/self_marks_page.h"
-#include "window/shell/loading.h"
-#include "window/shell/words.h"
+#include "window/ui/loading.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kBefore = 3, kAfter = 1;  // of a moment, are played [s]
 
 // Draws a page until it has an answer; nothing moves on it, so thirty pictures a second are enough.
 // closed: the user closed the window, or burr was interrupted.
@@ -170,37 +164,15 @@ class Review {
     }
   }
 
-  // Plays the recording around the moment of an item's evidence. The recording stays open for the
-  // next one.
   Result<Closed> play(const ReportItem& item) {
     note_.clear();
-    if (!recorded_) {
-      bool closed = false;
-      auto opened = load<Recorded>(
-          desk_, say(Word::loading, word(Word::start_recording)),
-          [this](Progress& progress) {
-            return open_recorded(options_.file, desk_.places().state, volume_, progress);
-          },
-          closed);
-      if (closed) return Closed::window;
-      if (!opened) {
-        if (opened.error().trouble != Trouble::interrupted) note_ = opened.error().text;
-        return Closed::page;
-      }
-      recorded_ = std::make_unique<Recorded>(std::move(*opened));
-    }
-    if (item.place) {                    // as the surgeon looks at it
-      constexpr double kHeight = 45e-3;  // of the picture [m]
-      recorded_->scene.camera = render::view_of_work(*item.place, report_->towards, kHeight);
-      render::pan(recorded_->scene.camera, 0, -0.1);  // the lower fifth is covered by the strip
-    }
-    WatchOptions watching;
-    watching.folder = options_.folder;
-    watching.from = std::max(0.0, *item.at_s - kBefore);
-    watching.until = *item.at_s + kAfter;
-    watching.place = item.place;
-    watching.note = item.text + "   " + word(Word::review_back);
-    return watch(desk_, *recorded_, watching);
+    ReviewMoment moment;
+    moment.volume = volume_;
+    moment.at = *item.at_s;
+    moment.place = item.place;
+    moment.towards = report_->towards;
+    moment.note = item.text + "   " + word(Word::review_back);
+    return options_.show(moment, note_);
   }
 
   Desk& desk_;
@@ -209,7 +181,6 @@ class Review {
   ReviewPressed pressed_;
   std::optional<Report> report_;
   std::string trouble_, note_;
-  std::unique_ptr<Recorded> recorded_;
   std::shared_ptr<FullReport> full_;
   std::unique_ptr<Loading<Report>> marking_;  // last: its thread ends first
 };

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "window/mill/hud.h"
-#include "window/shell/words.h"
+#include "window/parts/hud.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "report/report.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

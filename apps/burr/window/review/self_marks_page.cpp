@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "window/shell/words.h"
+#include "words/words.h"
 
 namespace burr::app {
 namespace {

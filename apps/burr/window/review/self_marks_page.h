@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "report/questions.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 
