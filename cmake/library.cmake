@@ -81,7 +81,11 @@ foreach(vendor crtk forcedimension haply openhaptics polhem)
   elseif(vendor STREQUAL "haply")
     list(APPEND needs nlohmann_json::nlohmann_json)
   endif()
-  burr_part(burr_device_${vendor} FROM device/${vendor}/ WITH ${needs})
+  set(speaks "")
+  if(vendor STREQUAL "haply")
+    set(speaks net/web_socket)
+  endif()
+  burr_part(burr_device_${vendor} FROM device/${vendor}/ ${speaks} WITH ${needs})
 endforeach()
 # X11's headers define Status, None and other names as macros: what follows them in one unit would not compile
 set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/render/gl/x_errors.cpp ${PROJECT_SOURCE_DIR}/src/burr/render/gl/xr_binding.cpp
@@ -95,13 +99,13 @@ burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp
     ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp
   WITH ZLIB::ZLIB BZip2::BZip2 PkgConfig::ZSTD PkgConfig::ASSIMP nlohmann_json::nlohmann_json ${CMAKE_DL_LIBS})
-# The web server is for the program alone: who cuts bone with libburr.so loads no TLS.
-set(serve_sources ${rest})
-list(FILTER serve_sources INCLUDE REGEX "/src/burr/serve/")
-list(REMOVE_ITEM rest ${serve_sources})
-# So is what asks other servers.
+# The web server and what asks other servers are for the program alone: who cuts bone with libburr.so loads no TLS.
+set(net_sources ${rest})
+list(FILTER net_sources INCLUDE REGEX "/src/burr/net/")
+list(REMOVE_ITEM rest ${net_sources})
+# So is what sends statements.
 set(lrs_sources ${rest})
-list(FILTER lrs_sources INCLUDE REGEX "/src/burr/(http|lrs)/")
+list(FILTER lrs_sources INCLUDE REGEX "/src/burr/lrs/")
 list(REMOVE_ITEM rest ${lrs_sources})
 # The store of learners is for the program alone: who cuts bone with libburr.so loads no database.
 set(school_sources ${rest})
@@ -156,18 +160,18 @@ set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
 list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/workshop/device_book[.]cpp$|/surgeon/motion[.]cpp$|/scoring/rubric[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
 
-add_library(burr_serve STATIC ${serve_sources})
-target_link_libraries(burr_serve PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
+add_library(burr_net STATIC ${net_sources})
+target_link_libraries(burr_net PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
 add_library(burr_school STATIC ${school_sources})
 target_link_libraries(burr_school PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json
   PkgConfig::SQLITE PkgConfig::POSTGRES)
 add_library(burr_lrs STATIC ${lrs_sources})
-target_link_libraries(burr_lrs PUBLIC burr_school PRIVATE burr burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
+target_link_libraries(burr_lrs PUBLIC burr_school burr_net PRIVATE burr burr_options fmt::fmt nlohmann_json::nlohmann_json)
 burr_common_headers(burr_school <fmt/format.h>)
 add_library(burr_dataset STATIC ${dataset_sources})
 target_link_libraries(burr_dataset PUBLIC burr PRIVATE burr_options fmt::fmt PkgConfig::HDF5)
 burr_common_headers(burr_dataset <fmt/format.h>)
-foreach(part burr_serve burr_school burr_lrs)
+foreach(part burr_net burr_school burr_lrs)
   burr_glue_for_asan(${part})
 endforeach()
 

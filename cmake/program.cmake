@@ -26,7 +26,7 @@ if(BURR_APP)
   function(burr_of_program target)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
       ${PROJECT_SOURCE_DIR}/third_party)
-    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_serve burr_dataset burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
+    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_net burr_dataset burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
     burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp> ${ARGN})

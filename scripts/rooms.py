@@ -7,8 +7,9 @@ docs/develop/architecture.md.
 
 Fails on a room that is not listed, an arrow that is not listed, rooms that include each other in a circle, files that
 include each other in a circle (in src/burr and in apps; a header and the source beside it count as one), a folder of
-apps/burr that is on no floor or includes one that is not on a lower floor, and a third-party header in the wrong place: graphics and headsets only in render/gl, the loudspeaker only in sound, file
-formats only in io, a vendor's library only in its own folder.
+apps/burr that is on no floor or includes one that is not on a lower floor, and a third-party header in the wrong place:
+graphics and headsets only in render/gl, the loudspeaker only in sound, file formats only in io, HTTP and WebSocket only
+in net, a vendor's library only in its own folder.
 """
 import collections
 import os
@@ -24,7 +25,8 @@ ALLOWED = {
     "rt": "",
     "volume": "rt",
     "tool": "rt",
-    "device": "rt",
+    "net": "",
+    "device": "rt net",
     "people": "",
     "edit": "volume tool rt",
     "haptics": "volume tool rt device",
@@ -44,13 +46,11 @@ ALLOWED = {
     "metrics": "record tick thermal volume tool rt",
     "scoring": "metrics record rt scenario volume",
     "school": "people record",
-    "serve": "",
-    "http": "",
-    "lrs": "school http",
+    "lrs": "school net",
     "workshop": "sim edit tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
     "dataset": "workshop sim record render surface tick device volume tool",
 }
-BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
+BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}, "net": {"base"}}  # the lowest rooms, with shorter lists
 
 # Of these rooms only headers with plain structs: (from, to) -> headers.
 ONLY = {
@@ -59,6 +59,7 @@ ONLY = {
     ("importing", "rt"): {"lanes.h", "simd.h"},
     ("importing", "surface"): {"cases.h", "enclosed.h"},
     ("haptics", "device"): {"hand.h"},
+    ("device", "net"): {"web_socket.h"},
     ("surgeon", "rt"): {"rt.h"},
     ("surgeon", "device"): {"hand_path.h", "device.h"},
     ("surgeon", "scenario"): {"lesson.h"},
@@ -100,6 +101,7 @@ ELSEWHERE = [
     (r"openxr/", ["render/gl"], "a headset"),
     (r"SDL", ["render/gl", "sound"], "graphics and sound"),
     (r"sqlite3|libpq|postgresql", ["school"], "a database"),
+    (r"boost/(beast|asio)", ["net"], "HTTP and WebSocket"),
     (r"hdf5[.]h|H5", ["dataset"], "a format of data sets"),
     (r"itk|gdcm|dcmtk/|assimp/|vtk|png[.]h|yaml[.]h", ["io"], "a file format's library"),
     (r"dds/|crtk_messages", ["device/crtk"], "the bus of ROS 2"),

@@ -139,6 +139,10 @@ class Rooms(unittest.TestCase):
         self.bad("volume/load.cpp", "#include <itkImage.h>\n", "belongs into io")
         self.bad("surface/save.cpp", "#include <assimp/scene.h>\n", "belongs into io")
 
+    def test_http_stays_in_its_room(self):
+        self.bad("device/haply/line.cpp", "#include <boost/beast/core.hpp>\n", "HTTP and WebSocket belongs into net")
+        self.bad("device/link.cpp", '#include "burr/net/client.h"\n', "of net, device may know only web_socket.h")
+
     def test_a_vendor_stays_in_its_own_folder(self):
         self.bad("sim/a.cpp", "#include <HD/hd.h>\n", "a folder of its own under device/")
         self.bad("device/a.cpp", "#include <HD/hd.h>\n", "a folder of its own under device/")

@@ -19,11 +19,11 @@
 
 #include "burr/device/simulated_hand.h"
 #include "burr/lrs/launch.h"
+#include "burr/net/guard.h"
 #include "burr/record/diary.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
 #include "burr/render/renderer.h"
-#include "burr/serve/guard.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "burr/tick/rows.h"
@@ -342,7 +342,7 @@ Result<Closed> session_in_window(Desk& desk, const Options& options) {
 // With --live: this station appears on the instructor's page.
 Status show_to_instructor(Desk& desk, const Options& options) {
   if (options.live.empty()) return fine();
-  auto token = serve::token_from(options.live_token);
+  auto token = net::token_from(options.live_token);
   if (!token) return token.error();
   std::string name = options.station;
   if (name.empty()) {

@@ -280,45 +280,45 @@ void Replays::drop(const std::string& session) {
   std::erase_if(replays_, [&](const Shared& one) { return one->session == session; });
 }
 
-serve::Response Replays::recording(const Replay& replay, const std::string& from) {
+net::Response Replays::recording(const Replay& replay, const std::string& from) {
   std::int64_t begin = 0;
   const auto [end, trouble] = std::from_chars(from.data(), from.data() + from.size(), begin);
   if (trouble != std::errc() || end != from.data() + from.size() || begin < 0 ||
       begin > replay.stamp.bytes)
-    return serve::refusal(400, "from: a number of bytes within the recording");
+    return net::refusal(400, "from: a number of bytes within the recording");
   const File file(replay.path);
   const auto now = file.stamp();
   if (!now || *now != replay.stamp)
-    return serve::refusal(409, "the recording has changed meanwhile; load the page again");
-  serve::Response out;
+    return net::refusal(409, "the recording has changed meanwhile; load the page again");
+  net::Response out;
   out.type = "application/octet-stream";
   out.body = file.read(
       begin, std::min<std::size_t>(kMostBytes, static_cast<std::size_t>(now->bytes - begin)));
   return out;
 }
 
-serve::Response Replays::answer(school::Store& store, const serve::Request& request) {
+net::Response Replays::answer(school::Store& store, const net::Request& request) {
   const std::string session = request.asked("session");
   const auto rows = store.database().rows(
       "SELECT recording_uri, recording_hash FROM session WHERE id = $1", {session});
-  if (!rows) return serve::refusal(503, rows.error().text);
+  if (!rows) return net::refusal(503, rows.error().text);
   if (rows->empty()) {
     drop(session);
-    return serve::refusal(404, "there is no such session");
+    return net::refusal(404, "there is no such session");
   }
   const std::string uri = school::text((*rows)[0][0]);
   if (school::path_of(uri).empty())
-    return serve::refusal(409, uri.empty() ? "the session came in without its recording"
-                                           : "the recording is on another computer");
+    return net::refusal(409, uri.empty() ? "the session came in without its recording"
+                                         : "the recording is on another computer");
   const Shared replay = replay_of(session, uri, school::text((*rows)[0][1]));
   std::unique_lock lock(mutex_);
   if (replay->state == Replay::State::failed) {
-    auto out = serve::refusal(replay->status, replay->why);
+    auto out = net::refusal(replay->status, replay->why);
     lock.unlock();
     drop(session);  // asked for again, it is tried again: the disk may be there then
     return out;
   }
-  serve::Response out;
+  net::Response out;
   if (replay->state != Replay::State::ready) {
     out.status = 202;
     out.body = json_line(Json{{"share", replay->share}, {"stage", replay->stage}});
@@ -335,7 +335,7 @@ serve::Response Replays::answer(school::Store& store, const serve::Request& requ
     out.body = replay->bone;
     return out;
   }
-  return serve::refusal(404, "there is nothing at this address");
+  return net::refusal(404, "there is nothing at this address");
 }
 
 }  // namespace burr::app

@@ -1,4 +1,4 @@
-// serve/request.h - what a browser asks, and what it gets.
+// net/request.h - what a browser asks, and what it gets.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace burr::serve {
+namespace burr::net {
 
 struct Request {
   std::string method;  // "GET", "HEAD", "POST"
@@ -41,4 +41,4 @@ struct Response {
 // "/a%20b?x=1" into path and query. False: not a target that burr answers.
 [[nodiscard]] bool read_target(std::string_view target, Request& request);
 
-}  // namespace burr::serve
+}  // namespace burr::net

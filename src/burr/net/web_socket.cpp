@@ -1,4 +1,4 @@
-#include "burr/device/haply/web_socket.h"
+#include "burr/net/web_socket.h"
 
 #include <fmt/format.h>
 
@@ -13,13 +13,13 @@
 #include <optional>
 #include <utility>
 
-namespace burr::device::haply {
+namespace burr::net {
 namespace {
 
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
-namespace net = boost::asio;
-using Tcp = net::ip::tcp;
+namespace asio = boost::asio;
+using Tcp = asio::ip::tcp;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
@@ -29,8 +29,8 @@ constexpr milliseconds kPatience(500);  // for an answer of the other end
 
 struct WebSocket::Line {
   std::size_t longest = 0;
-  net::io_context io{1};
-  net::executor_work_guard<net::io_context::executor_type> stays{net::make_work_guard(io)};
+  asio::io_context io{1};
+  asio::executor_work_guard<asio::io_context::executor_type> stays{asio::make_work_guard(io)};
   std::optional<websocket::stream<beast::tcp_stream>> stream;
   beast::flat_buffer buffer;
   std::string out;
@@ -118,7 +118,7 @@ bool WebSocket::send(const std::string& text) {
   if (line.writing || line.failed) return false;
   line.out = text;
   line.writing = true;
-  line.stream->async_write(net::buffer(line.out), [&line](beast::error_code error, std::size_t) {
+  line.stream->async_write(asio::buffer(line.out), [&line](beast::error_code error, std::size_t) {
     line.failed = line.failed || error;
     line.writing = false;
   });
@@ -157,13 +157,13 @@ void WebSocket::rest(milliseconds time) {
 }
 void WebSocket::stop() {
   line_->stop = true;
-  net::post(line_->io, [] {});  // wakes the waiting thread
+  asio::post(line_->io, [] {});  // wakes the waiting thread
 }
 bool WebSocket::stopped() const { return line_->stop; }
 
 std::string http_body(const std::string& host, int port, const std::string& target) {
   namespace http = beast::http;
-  net::io_context io{1};
+  asio::io_context io{1};
   beast::tcp_stream stream(io);
   beast::error_code trouble;
   const auto where = Tcp::resolver(io).resolve(host, std::to_string(port), trouble);
@@ -187,4 +187,4 @@ std::string http_body(const std::string& host, int port, const std::string& targ
   return body;
 }
 
-}  // namespace burr::device::haply
+}  // namespace burr::net

@@ -1,4 +1,4 @@
-// serve/http_server.h - a small web server for one centre's page (HTTP/1.1, with TLS where a certificate is given).
+// net/http_server.h - a small web server for one centre's page (HTTP/1.1, with TLS where a certificate is given).
 //
 //     auto server = HttpServer::open(door, [&](const Request& request) { return answer(request); });
 //     (*server)->run();            // until stop(), from any thread or a signal
@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "burr/base/result.h"
-#include "burr/serve/request.h"
+#include "burr/net/request.h"
 
-namespace burr::serve {
+namespace burr::net {
 
 struct Door {
   std::string address = "127.0.0.1";
@@ -25,12 +25,12 @@ struct Door {
   double wait_s = 15;            // for a whole request, and between two
 };
 
-using Answer = std::function<Response(const Request&)>;
+using Answering = std::function<Response(const Request&)>;
 
 class HttpServer {
  public:
   // Error: the address is not one of this computer, the port is in use, or certificate and key do not fit.
-  [[nodiscard]] static Result<std::unique_ptr<HttpServer>> open(const Door& door, Answer answer);
+  [[nodiscard]] static Result<std::unique_ptr<HttpServer>> open(const Door& door, Answering answer);
   virtual ~HttpServer() = default;
 
   [[nodiscard]] virtual unsigned short port() const = 0;
@@ -43,4 +43,4 @@ class HttpServer {
 // An address of the computer itself: 127.x.x.x or ::1.
 [[nodiscard]] bool is_loopback(const std::string& address);
 
-}  // namespace burr::serve
+}  // namespace burr::net

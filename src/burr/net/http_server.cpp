@@ -1,4 +1,4 @@
-#include "burr/serve/http_server.h"
+#include "burr/net/http_server.h"
 
 #include <fmt/core.h>
 
@@ -21,9 +21,10 @@
 #include <utility>
 #include <vector>
 
-#include "burr/serve/guard.h"
+#include "burr/net/field_name.h"
+#include "burr/net/guard.h"
 
-namespace burr::serve {
+namespace burr::net {
 namespace {
 
 namespace beast = boost::beast;
@@ -37,17 +38,10 @@ constexpr int kMostConnections = 128;
 
 // What all connections share.
 struct Shared {
-  Answer answer;
+  Answering answer;
   std::chrono::steady_clock::duration wait;
   int connections = 0;
 };
-
-std::string small(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return out;
-}
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -107,10 +101,11 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
     const bool readable = read_target(view(message.target()), request);
     bool twice = false;
     for (const auto& field : message)
-      twice = !request.fields
-                   .emplace(small(view(field.name_string())), std::string(view(field.value())))
-                   .second ||
-              twice;
+      twice =
+          !request.fields
+               .emplace(small_letters(view(field.name_string())), std::string(view(field.value())))
+               .second ||
+          twice;
     request.body = message.body();
     const bool last = !message.keep_alive();
     head_only_ = request.method == "HEAD";
@@ -177,7 +172,7 @@ class Connection : public std::enable_shared_from_this<Connection<Stream>> {
 
 class Server final : public HttpServer {
  public:
-  Server(Answer answer, double wait_s) {
+  Server(Answering answer, double wait_s) {
     shared_.answer = std::move(answer);
     shared_.wait = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
         std::chrono::duration<double>(wait_s));
@@ -274,7 +269,7 @@ class Server final : public HttpServer {
 
 }  // namespace
 
-Result<std::unique_ptr<HttpServer>> HttpServer::open(const Door& door, Answer answer) {
+Result<std::unique_ptr<HttpServer>> HttpServer::open(const Door& door, Answering answer) {
   if (door.certificate.empty() != door.key.empty())
     return error(Trouble::usage, "--certificate and --key belong together; give both");
   auto server = std::make_unique<Server>(std::move(answer), door.wait_s);
@@ -288,4 +283,4 @@ bool is_loopback(const std::string& address) {
   return !trouble && parsed.is_loopback();
 }
 
-}  // namespace burr::serve
+}  // namespace burr::net

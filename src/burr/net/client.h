@@ -1,6 +1,6 @@
-// http/client.h - asks a server of the web, with TLS where the address says so.
+// net/client.h - asks a server of the web, with TLS where the address says so.
 //
-//     auto answer = http::ask({"POST", "https://lrs.example.org/xapi/statements", {{"Content-Type", "application/json"}}, body});
+//     auto answer = net::ask({"POST", "https://lrs.example.org/xapi/statements", {{"Content-Type", "application/json"}}, body});
 //     if (answer && answer->status == 200) ...
 //
 // The server's certificate and name are checked by the authorities that the system knows (or those of SSL_CERT_FILE).
@@ -16,7 +16,7 @@
 
 #include "burr/base/result.h"
 
-namespace burr::http {
+namespace burr::net {
 
 struct Question {
   std::string method = "GET", url;
@@ -43,4 +43,4 @@ struct Url {
 
 [[nodiscard]] Result<Answer> ask(const Question& question);
 
-}  // namespace burr::http
+}  // namespace burr::net

@@ -1,11 +1,11 @@
-#include "burr/serve/request.h"
+#include "burr/net/request.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <optional>
 
-namespace burr::serve {
+namespace burr::net {
 namespace {
 
 constexpr std::size_t kLongestTarget = 2048;
@@ -69,4 +69,4 @@ bool read_target(std::string_view target, Request& request) {
   return true;
 }
 
-}  // namespace burr::serve
+}  // namespace burr::net

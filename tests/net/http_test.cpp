@@ -16,11 +16,11 @@
 #include <thread>
 #include <vector>
 
-#include "burr/serve/guard.h"
-#include "burr/serve/http_server.h"
+#include "burr/net/guard.h"
+#include "burr/net/http_server.h"
 #include "support/folder.h"
 
-namespace burr::serve {
+namespace burr::net {
 namespace {
 
 constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
@@ -402,4 +402,4 @@ TEST(Serve, SpeaksTls) {
 }
 
 }  // namespace
-}  // namespace burr::serve
+}  // namespace burr::net

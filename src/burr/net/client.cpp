@@ -1,4 +1,4 @@
-#include "burr/http/client.h"
+#include "burr/net/client.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,9 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace burr::http {
+#include "burr/net/field_name.h"
+
+namespace burr::net {
 namespace {
 
 namespace asio = boost::asio;
@@ -28,13 +30,6 @@ bool is_this_computer(const std::string& host) {
   beast::error_code trouble;
   const auto address = asio::ip::make_address(host, trouble);
   return host == "localhost" || (!trouble && address.is_loopback());
-}
-
-std::string small(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  return out;
 }
 
 Error failed(const Url& url, const beast::error_code& trouble) {
@@ -209,10 +204,10 @@ Result<Answer> ask(const Question& question) {
   const auto& message = parser.get();
   out.status = static_cast<int>(message.result_int());
   for (const auto& field : message)
-    out.fields[small({field.name_string().data(), field.name_string().size()})] =
+    out.fields[small_letters({field.name_string().data(), field.name_string().size()})] =
         std::string(field.value().data(), field.value().size());
   out.body = message.body();
   return out;
 }
 
-}  // namespace burr::http
+}  // namespace burr::net

@@ -1,4 +1,4 @@
-// device/haply/web_socket.h - a client for WebSocket and for one HTTP question: the two ways to
+// net/web_socket.h - a client for WebSocket and for one HTTP question: the two ways to
 // talk to Haply's service.
 //
 //     WebSocket line(1 << 20);
@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-namespace burr::device::haply {
+namespace burr::net {
 
 class WebSocket {
  public:
@@ -58,4 +58,4 @@ class WebSocket {
 // The body of the answer, within a second; empty: no answer.
 [[nodiscard]] std::string http_body(const std::string& host, int port, const std::string& target);
 
-}  // namespace burr::device::haply
+}  // namespace burr::net

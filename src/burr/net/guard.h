@@ -1,4 +1,4 @@
-// serve/guard.h - who may ask, and what every answer forbids a browser.
+// net/guard.h - who may ask, and what every answer forbids a browser.
 //
 //     Host        must name this server: a foreign name that was made to point here (DNS rebinding) gets nothing
 //     Origin      where a browser sends it, it must be this server's own; so does Sec-Fetch-Site
@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "burr/base/result.h"
-#include "burr/serve/request.h"
+#include "burr/net/request.h"
 
-namespace burr::serve {
+namespace burr::net {
 
 inline constexpr const char* kStationPath = "/api/station";
 
@@ -43,4 +43,4 @@ struct Guard {
 // What every answer carries: Content-Security-Policy and its like.
 void add_fences(Response& response);
 
-}  // namespace burr::serve
+}  // namespace burr::net

@@ -1,4 +1,4 @@
-#include "burr/serve/guard.h"
+#include "burr/net/guard.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -12,7 +12,7 @@
 #include "burr/base/text_file.h"
 #include "burr/base/trimmed.h"
 
-namespace burr::serve {
+namespace burr::net {
 namespace {
 
 constexpr std::size_t kShortestToken = 32;
@@ -110,4 +110,4 @@ void add_fences(Response& response) {
   for (const auto& [name, value] : fences) response.fields.emplace_back(name, value);
 }
 
-}  // namespace burr::serve
+}  // namespace burr::net
