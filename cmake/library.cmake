@@ -51,6 +51,7 @@ list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 #     burr_sound         + SDL                                    sound
 #     burr_device_...    + what its maker gives                   one each
 #     burr_workshop      + all of these, OpenSSL's hashes                        opens things: bone, place, hand, recorder, live surface
+#     burr_front         + nothing                                what a window and a page say and show: words, guidance, report, the mouse
 #
 # burr_part(NAME WITH TARGET... FROM GLOB...): the sources that match; each belongs to one part.
 set(rest ${BURR_SOURCES})
@@ -93,6 +94,10 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/render/gl/x_errors.cp
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
 burr_part(burr_workshop FROM workshop/ WITH OpenSSL::Crypto ${CMAKE_DL_LIBS})
+include(${PROJECT_SOURCE_DIR}/cmake/words.cmake)
+burr_part(burr_front FROM words/ guidance/ report/ mouse/ MORE ${CMAKE_BINARY_DIR}/words/word_texts.cpp
+  WITH nlohmann_json::nlohmann_json)
+target_include_directories(burr_front PRIVATE ${CMAKE_BINARY_DIR}/words)  # the keys
 burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ surgeon/ sim/
   MORE ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
@@ -126,13 +131,14 @@ endif()
 set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/burr/base/helper_program.cpp APPEND PROPERTY
   COMPILE_DEFINITIONS BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 burr_common_headers(burr_files <fmt/format.h>)
-foreach(part burr_render_gl burr_workshop burr_device_haply)
+foreach(part burr_render_gl burr_workshop burr_front burr_device_haply)
   burr_glue_for_asan(${part})
 endforeach()
 foreach(part burr_session burr_device_crtk burr_device_forcedimension burr_device_openhaptics burr_device_polhem)
   burr_common_headers(${part} REUSE_FROM burr_files)  # the same options, so one set of headers for all
 endforeach()
 burr_common_headers(burr_render_gl <fmt/format.h>)
+burr_common_headers(burr_front <fmt/format.h> <nlohmann/json.hpp>)
 foreach(part burr_workshop burr_device_haply)
   if(BURR_SANITIZE MATCHES "address")  # other options
     burr_common_headers(${part} <fmt/format.h>)
@@ -143,6 +149,7 @@ endforeach()
 
 add_library(burr SHARED)
 target_link_libraries(burr PUBLIC burr_core PRIVATE $<BUILD_INTERFACE:burr_options>)
+target_include_directories(burr PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/words>)  # the keys of the room `words`
 foreach(part ${BURR_PARTS})
   target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:${part}>)
 endforeach()

@@ -56,9 +56,8 @@ foreach(room ${rooms})
     add_executable(test_${room} ${sources} ${kernels})
     target_link_libraries(test_${room} PRIVATE burr_test_support burr_options GTest::gtest_main nlohmann_json::nlohmann_json
       ZLIB::ZLIB PkgConfig::ZSTD PkgConfig::ASSIMP PkgConfig::EPOXY PkgConfig::SDL2)
-    if(room MATCHES "^(window|report|sound|devices|doctor)$")  # of the program, not of the library
-      target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
-        ${PROJECT_SOURCE_DIR}/third_party)
+    if(room MATCHES "^(window|sound|devices|doctor)$")  # of the program, not of the library
+      target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
       target_link_libraries(test_${room} PRIVATE burr_app CLI11::CLI11 PkgConfig::IMGUI)
     endif()
     if(room STREQUAL net)

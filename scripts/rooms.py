@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Prints which rooms of src/burr and which folders of apps/burr include which, and fails where this differs from
-docs/develop/architecture.md.
+docs/develop/architecture.md and program_floors.md.
 
     scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr and apps; default: this checkout
     scripts/rooms.py --above ROOM         prints ROOM and the rooms that include it, as far as they have tests (./test --room)
@@ -46,6 +46,10 @@ ALLOWED = {
     "metrics": "record tick thermal volume tool rt",
     "scoring": "metrics record rt scenario volume",
     "school": "people record",
+    "words": "scenario",
+    "guidance": "words workshop scoring record scenario tool volume rt",
+    "report": "words scoring metrics workshop sim record render surface scenario edit volume rt",
+    "mouse": "workshop device render scenario rt",
     "lrs": "school net",
     "workshop": "sim edit tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
     "dataset": "workshop sim record render surface tick device volume tool",
@@ -75,14 +79,20 @@ ONLY = {
     ("metrics", "tool"): {"burr_tool.h", "state.h", "places.h", "shaped_tool.h"},
     ("scoring", "record"): {"player.h", "course.h"},
     ("school", "record"): {"identity.h"},
+    ("words", "scenario"): {"lesson.h"},
+    ("guidance", "record"): {"course.h", "private_text.h"},
+    ("guidance", "scoring"): {"step_done.h"},
+    ("guidance", "workshop"): {"label_check.h"},
+    ("report", "edit"): {"piece_store.h"},
+    ("report", "sim"): {"move_pieces.h"},
+    ("mouse", "scenario"): {"rack.h"},
+    ("mouse", "workshop"): {"device_book.h"},
 }
 
 # The floors of apps/burr, the lowest first: a folder includes itself and folders of lower floors, so none of its own
 # floor. "." is main.cpp.
 FLOORS = [
-    "words window/hands window/station",
-    "guidance report",
-    "shared",
+    "shared window/hands window/station",
     "batch bench devices school",
     "doctor serve",
     "verify",
@@ -212,7 +222,7 @@ def look_at_floors(app):
     for path, names in files.items():
         where, folder = f"apps/burr/{path}", path.parent.as_posix()
         if folder not in level:
-            wrong.append(f"{where}: folder '{folder}' is on no floor; see docs/develop/architecture.md, section 2")
+            wrong.append(f"{where}: folder '{folder}' is on no floor; see docs/develop/program_floors.md")
             continue
         for _, name in names:
             places = [pathlib.Path(os.path.normpath(place)) for place in (path.parent / name, name)]

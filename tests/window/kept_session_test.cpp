@@ -88,7 +88,7 @@ TEST_F(Kept, ASessionThatIsContinuedGoesOnWhereItEnded) {
     session.command({tick::CommandKind::burr_kind, 1});
     session.command({tick::CommandKind::spindle_speed, 3000});
     session.command({tick::CommandKind::irrigation, 1});
-    MouseHand::Aim aim;
+    mouse::MouseHand::Aim aim;
     aim.world_from_tool = ready->scene.burr.world_from_tool;
     aim.world_from_tool.p = ready->scene.camera.target;  // on the surface: pressed in by a radius
     aim.pedal = 1;

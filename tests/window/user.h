@@ -21,12 +21,12 @@
 #include <vector>
 
 #include "shared/make_ready.h"
+#include "shared/words.h"
 #include "shared/work.h"
 #include "support/data.h"
 #include "support/folder.h"
 #include "window/mill/window.h"
 #include "window/shell/pages.h"
-#include "words/words.h"
 
 namespace burr::app {
 

@@ -16,13 +16,13 @@
 #include "burr/base/new_file.h"
 #include "burr/base/places.h"
 #include "burr/base/printable.h"
+#include "burr/report/report_pictures.h"
+#include "burr/report/scored.h"
 #include "burr/school/ratings.h"
 #include "burr/school/sessions.h"
 #include "burr/school/study/table.h"
 #include "burr/school/uuid.h"
 #include "burr/scoring/rubric.h"
-#include "report/report_pictures.h"
-#include "report/scored.h"
 #include "school/products.h"
 #include "school/store_command.h"
 #include "shared/command.h"
@@ -189,14 +189,14 @@ Status mark_from_table(const Options& options, school::Store& store) {
 Status draw(const Options& options, school::Store& store) {
   const auto recording = recording_of(store, options.session);
   if (!recording) return recording.error();
-  auto judged = judged_by(*recording, "");
+  auto judged = report::judged_by(*recording, "");
   if (!judged) return error(judged.error().trouble, "the recording of this session cannot be read");
-  auto of_it = scored(std::move(*judged), options.volume, progress());
+  auto of_it = report::scored(std::move(*judged), options.volume, progress());
   if (!of_it)
     return of_it.error().trouble == Trouble::interrupted
                ? of_it.error()
                : error(of_it.error().trouble, "the bone of this session cannot be made");
-  auto artist = ReportArtist::make(*of_it, progress());
+  auto artist = report::ReportArtist::make(*of_it, progress());
   if (!artist) return artist.error();
   const auto pictures = (*artist)->plain();
   if (!pictures) return pictures.error();
@@ -206,7 +206,7 @@ Status draw(const Options& options, school::Store& store) {
     return error(Trouble::io, fmt::format("{}: cannot be made: {}",
                                           base::printable(options.pictures), trouble.message()));
   Json json = Json::array();
-  for (const ReportArtist::Plain& one : *pictures) {
+  for (const report::ReportArtist::Plain& one : *pictures) {
     auto file = base::NewFile::create((fs::path(options.pictures) / (one.name + ".png")).string());
     if (!file) return file.error();
     file->write(one.picture.png);

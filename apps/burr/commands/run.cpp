@@ -45,6 +45,7 @@
 #include "shared/outputs.h"
 #include "shared/recording.h"
 #include "shared/volume_words.h"
+#include "shared/words.h"
 #include "shared/work.h"
 #include "window/mill/window.h"
 #include "window/review/enter_session.h"
@@ -53,7 +54,6 @@
 #include "window/shell/review_session.h"
 #include "window/station/station_link.h"
 #include "window/ui/loading.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -22,6 +22,8 @@
 #include "burr/io/write/zip.h"
 #include "burr/record/identity.h"
 #include "burr/record/player.h"
+#include "burr/report/marked.h"
+#include "burr/report/report_page.h"
 #include "burr/school/export.h"
 #include "burr/school/forget.h"
 #include "burr/school/pending.h"
@@ -29,8 +31,6 @@
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
-#include "report/marked.h"
-#include "report/report_page.h"
 #include "school/decide.h"
 #include "school/practice_words.h"
 #include "school/session_of.h"
@@ -40,7 +40,7 @@
 #include "shared/counted.h"
 #include "shared/outputs.h"
 #include "shared/volume_words.h"
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {
@@ -428,11 +428,11 @@ void add_reports(const Options& options, const std::vector<school::SessionRow>& 
       missing.push_back(one.recording_uri + " (another file has its name now)");
       continue;
     }
-    const auto report = marked(path, "", {}, progress());
+    const auto report = report::marked(path, "", {}, progress());
     if (report)
       files.push_back(
           {fmt::format("report_{}_{}.html", day_of(one.started_ms), one.id.substr(0, 8)),
-           page_of(*report)});
+           report::page_of(*report)});
     else
       missing.push_back(fmt::format("{} ({})", one.recording_uri, report.error().text));
   }

@@ -61,7 +61,7 @@ Result<Ready> make_ready(const WorkOptions& options, workshop::Prepared prepared
                                             2 * view_height(settings.servo.burr.radius));
   std::unique_ptr<device::Device> hand;
   if (options.hand.device.empty()) {
-    auto mouse = std::make_unique<MouseHand>(above);
+    auto mouse = std::make_unique<mouse::MouseHand>(above);
     ready.hands.mouse = mouse.get();
     hand = std::move(mouse);
   } else {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/mouse/mouse_hand.h"
 #include "burr/render/scene.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scenario/rack.h"
@@ -20,7 +21,6 @@
 #include "burr/workshop/spared_distance.h"
 #include "burr/workshop/suction_hand.h"
 #include "shared/work.h"
-#include "window/hands/mouse_hand.h"
 
 namespace burr::app {
 
@@ -31,7 +31,7 @@ struct Ready {
   scenario::Recipe volume;
   importing::ImportSummary import;
   std::unique_ptr<sim::Session> session;
-  Hands hands;  // of the session
+  mouse::Hands hands;  // of the session
   std::unique_ptr<workshop::SuctionHand> suction;
   std::unique_ptr<device::crtk::Arm> arm;
   std::unique_ptr<workshop::ArmPublisher> teller;

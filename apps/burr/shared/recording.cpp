@@ -11,9 +11,9 @@
 #include "burr/record/course.h"
 #include "burr/record/rename_and_sync.h"
 #include "burr/record/scan_list.h"
+#include "burr/report/questions.h"
 #include "burr/scoring/rubric.h"
 #include "burr/workshop/recording.h"
-#include "report/questions.h"
 #include "shared/command.h"
 
 namespace burr::app {
@@ -24,7 +24,7 @@ Status Recording::start(sim::Session& session, const std::string& file,
                         const std::optional<workshop::Tissues>& spared,
                         const std::optional<scenario::Case>& work_case) {
   record::Identity who = identity_;
-  if (const std::string rubric = work_case ? rubric_of(*work_case) : ""; !rubric.empty())
+  if (const std::string rubric = work_case ? report::rubric_of(*work_case) : ""; !rubric.empty())
     if (const auto read = scoring::read_rubric(rubric)) who.rubric_hash = read->text_hash;
   const workshop::About about{volume, import.format, motion, embed,
                               spared, work_case,     who,    scan_list_};

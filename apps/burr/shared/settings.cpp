@@ -15,7 +15,7 @@
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
 #include "burr/workshop/hand_device.h"
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

@@ -1,9 +1,9 @@
 #include "shared/work.h"
 #include "burr/base/printable.h"
 #include "burr/phantom/phantoms.h"
+#include "burr/report/scored.h"
 #include "burr/workshop/case_session.h"
 #include "burr/workshop/other_bone.h"
-#include "report/scored.h"
 
 #include <fmt/core.h>
 
@@ -50,7 +50,7 @@ Status take_case(WorkOptions& options) {
       options.bone = std::random_device{}() % phantom::kMostBones + 1;
     if (const Status taken = workshop::take_bone(*read, options.bone); !taken) return taken;
     if (!read->rubric.empty())
-      if (const Status fits = rubric_fits(*read); !fits) return fits;
+      if (const Status fits = report::rubric_fits(*read); !fits) return fits;
     take_case(options, *read);
   } else if (options.bone > 0) {
     return error(

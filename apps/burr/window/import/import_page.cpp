@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "shared/interrupt.h"
+#include "shared/words.h"
 #include "shared/work.h"
 #include "window/import/series_page.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "shared/interrupt.h"
+#include "shared/words.h"
 #include "window/import/import_preview.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -1,6 +1,6 @@
 #include "window/mill/cross_button.h"
 
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

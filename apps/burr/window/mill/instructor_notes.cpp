@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "shared/words.h"
 #include "window/parts/hud.h"
 #include "window/parts/measuring.h"
-#include "words/words.h"
 
 namespace burr::app {
 

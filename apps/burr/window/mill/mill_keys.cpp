@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "shared/words.h"
 #include "window/mill/mill.h"
 #include "window/ui/printed_keys.h"
-#include "words/words.h"
 
 namespace burr::app {
 

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "burr/render/pick.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
 #include "window/station/station_link.h"
-#include "words/words.h"
 
 namespace burr::app {
 

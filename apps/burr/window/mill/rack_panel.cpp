@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "shared/words.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/titled_panel.h"
 #include "window/parts/hud.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

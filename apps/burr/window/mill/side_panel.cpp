@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string>
 
+#include "shared/words.h"
 #include "window/mill/cross_button.h"
 #include "window/parts/hud.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

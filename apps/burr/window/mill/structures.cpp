@@ -4,7 +4,7 @@
 #include <array>
 
 #include "burr/render/unseen.h"
-#include "words/anatomy.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "shared/words.h"
 #include "window/mill/side_panel.h"
 #include "window/parts/hud.h"
-#include "words/anatomy.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "burr/render/microscope.h"
+#include "shared/words.h"
 #include "window/parts/hud.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "burr/render/picture.h"
 #include "shared/helper_process.h"
+#include "shared/words.h"
 #include "window/parts/hud.h"
 #include "window/ui/loading.h"
 #include "window/ui/typed_path.h"
-#include "words/words.h"
 
 namespace burr::app {
 

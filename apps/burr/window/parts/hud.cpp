@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "burr/render/governor.h"
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "burr/tick/servo.h"
+#include "shared/words.h"
 #include "window/ui/ui.h"
-#include "words/words.h"
 
 namespace burr::app {
 

@@ -1,10 +1,12 @@
 #include "window/parts/measuring.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

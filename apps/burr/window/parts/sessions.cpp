@@ -16,10 +16,10 @@
 #include "burr/base/toml_text.h"
 #include "burr/record/player.h"
 #include "burr/record/rename_and_sync.h"
+#include "burr/report/questions.h"
 #include "burr/scenario/rack.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/recording.h"
-#include "report/questions.h"
 #include "shared/work.h"
 
 namespace burr::app {
@@ -255,9 +255,10 @@ Autosave::Autosave(const fs::path& state, Ready& ready, const WorkOptions& optio
     kept_.title = ready.title;
     kept_.options = options;
     kept_.earlier = ready.earlier;
-    kept_.marks = ready.work_case && ready.allowed.marks && !questions_on(*ready.work_case).empty();
+    kept_.marks =
+        ready.work_case && ready.allowed.marks && !report::questions_on(*ready.work_case).empty();
     std::error_code nobody_asks;
-    if (ready.work_case) kept_.rubric = rubric_of(*ready.work_case);
+    if (ready.work_case) kept_.rubric = report::rubric_of(*ready.work_case);
     if (const fs::path there = fs::absolute(kept_.rubric, nobody_asks);
         fs::exists(kept_.rubric, nobody_asks))
       kept_.rubric = there.string();

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

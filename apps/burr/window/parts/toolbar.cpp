@@ -6,8 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include "shared/words.h"
 #include "window/ui/printed_keys.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

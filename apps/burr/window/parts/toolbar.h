@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "burr/tick/servo.h"
+#include "shared/words.h"
 #include "window/ui/ui.h"
-#include "words/words.h"
 
 namespace burr::app {
 

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "shared/words.h"
 #include "window/replay/timeline_panel.h"
-#include "words/anatomy.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -13,8 +13,8 @@
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/piece_look.h"
 #include "burr/workshop/recording.h"
+#include "shared/words.h"
 #include "window/parts/sessions.h"
-#include "words/words.h"
 
 namespace burr::app {
 

@@ -1,7 +1,7 @@
 #include "window/replay/replay_bar.h"
 
+#include "shared/words.h"
 #include "window/ui/printed_keys.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

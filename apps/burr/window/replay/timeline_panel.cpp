@@ -6,9 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shared/words.h"
 #include "window/parts/hud.h"
-#include "words/anatomy.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

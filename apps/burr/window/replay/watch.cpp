@@ -10,14 +10,13 @@
 #include "burr/render/picture.h"
 #include "burr/scenario/open_lesson.h"
 #include "shared/interrupt.h"
+#include "shared/words.h"
 #include "window/parts/export_page.h"
 #include "window/parts/measuring.h"
 #include "window/replay/comparison.h"
 #include "window/replay/replay_view.h"
 #include "window/replay/split_view.h"
 #include "window/ui/file_dialog.h"
-#include "words/anatomy.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

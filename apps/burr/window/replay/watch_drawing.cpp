@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/words.h"
 #include "window/parts/export_page.h"
 #include "window/parts/hud.h"
 #include "window/parts/measuring.h"
@@ -16,7 +17,6 @@
 #include "window/replay/timeline_panel.h"
 #include "window/ui/file_dialog.h"
 #include "window/ui/help.h"
-#include "words/words.h"
 
 namespace burr::app {
 

@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "shared/interrupt.h"
+#include "shared/words.h"
 #include "window/parts/export_page.h"
 #include "window/parts/measuring.h"
 #include "window/parts/see_through.h"
 #include "window/replay/replay_view.h"
 #include "window/replay/timeline_panel.h"
 #include "window/ui/file_dialog.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

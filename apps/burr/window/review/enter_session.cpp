@@ -11,8 +11,8 @@
 #include "burr/school/pending.h"
 #include "burr/school/store.h"
 #include "shared/helper_process.h"
+#include "shared/words.h"
 #include "window/review/review.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

@@ -12,14 +12,14 @@
 #include <utility>
 
 #include "burr/render/picture.h"
-#include "report/marked.h"
-#include "report/questions.h"
+#include "burr/report/marked.h"
+#include "burr/report/questions.h"
 #include "shared/interrupt.h"
+#include "shared/words.h"
 #include "window/review/full_report.h"
 #include "window/review/review_page.h"
 #include "window/review/self_marks_page.h"
 #include "window/ui/loading.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {
@@ -79,9 +79,9 @@ class Review {
             options.file, options.rubric, volume_,
             std::filesystem::path(options.file).replace_extension(".html").string())) {
     if (!options.marks) return;
-    marking_ = std::make_unique<Loading<Report>>(
+    marking_ = std::make_unique<Loading<report::Report>>(
         [file = options.file, rubric = options.rubric, volume = volume_](Progress& progress) {
-          return marked(file, rubric, volume, progress);
+          return report::marked(file, rubric, volume, progress);
         });
   }
 
@@ -89,7 +89,7 @@ class Review {
     for (;;) {
       desk_.page = Page::review;
       desk_.renderer().title("burr");
-      const ReportItem* seen = nullptr;
+      const report::ReportItem* seen = nullptr;
       bool closed = false, leaves = false;
       pressed_ = {};
       const Status shown = show_until(
@@ -155,7 +155,7 @@ class Review {
     desk_.status_text = state.note;
     if (report_) {
       desk_.status_text += " " + report_->unfinished;
-      for (const ReportPart& part : report_->parts) desk_.status_text += " " + part.met;
+      for (const report::ReportPart& part : report_->parts) desk_.status_text += " " + part.met;
     }
     pressed_ = draw_review(desk_.ui(), state);
     if (pressed_.full) {
@@ -164,7 +164,7 @@ class Review {
     }
   }
 
-  Result<Closed> play(const ReportItem& item) {
+  Result<Closed> play(const report::ReportItem& item) {
     note_.clear();
     ReviewMoment moment;
     moment.volume = volume_;
@@ -179,21 +179,21 @@ class Review {
   const ReviewOptions& options_;
   scenario::Recipe volume_;
   ReviewPressed pressed_;
-  std::optional<Report> report_;
+  std::optional<report::Report> report_;
   std::string trouble_, note_;
   std::shared_ptr<FullReport> full_;
-  std::unique_ptr<Loading<Report>> marking_;  // last: its thread ends first
+  std::unique_ptr<Loading<report::Report>> marking_;  // last: its thread ends first
 };
 
 }  // namespace
 
-std::string rubric_for(const scenario::Case& work) { return rubric_of(work); }
+std::string rubric_for(const scenario::Case& work) { return report::rubric_of(work); }
 
-bool has_marks(const scenario::Case& work) { return !questions_on(work).empty(); }
+bool has_marks(const scenario::Case& work) { return !report::questions_on(work).empty(); }
 
 Result<bool> ask_self_marks(Desk& desk, const scenario::Case& work, record::Diary& diary,
                             std::uint64_t tick, double seconds) {
-  SelfMarksPage page(questions_on(work));
+  SelfMarksPage page(report::questions_on(work));
   desk.page = Page::self_marks;
   desk.renderer().title("burr");
   using Pressed = SelfMarksPage::Pressed;

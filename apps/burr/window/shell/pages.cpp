@@ -10,6 +10,7 @@
 
 #include "burr/render/picture.h"
 #include "shared/interrupt.h"
+#include "shared/words.h"
 #include "shared/work.h"
 #include "window/import/import_page.h"
 #include "window/import/notice_words.h"
@@ -23,7 +24,6 @@
 #include "window/shell/review_session.h"
 #include "window/start/start_page.h"
 #include "window/ui/loading.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "burr/render/camera.h"
+#include "shared/words.h"
 #include "window/replay/playback.h"
 #include "window/replay/replay_page.h"
 #include "window/ui/loading.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

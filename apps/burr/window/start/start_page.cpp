@@ -13,13 +13,12 @@
 #include "burr/scenario/case.h"
 #include "burr/workshop/hand_device.h"
 #include "shared/interrupt.h"
+#include "shared/words.h"
 #include "shared/work.h"
 #include "window/parts/hud.h"
 #include "window/start/can_rate.h"
 #include "window/ui/settings_page.h"
 #include "window/ui/typed_path.h"
-#include "words/case_name.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

@@ -10,9 +10,9 @@
 #include <system_error>
 #include <utility>
 
+#include "shared/words.h"
 #include "window/ui/imgui_keys.h"
 #include "window/ui/typed_path.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

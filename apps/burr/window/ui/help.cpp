@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "shared/words.h"
 #include "window/ui/printed_keys.h"
-#include "words/words.h"
 
 namespace burr::app {
 namespace {

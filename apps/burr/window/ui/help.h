@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "shared/words.h"
 #include "window/ui/ui.h"
-#include "words/words.h"
 
 namespace burr::app {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "shared/interrupt.h"
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

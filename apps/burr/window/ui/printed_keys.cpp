@@ -5,7 +5,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "words/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {
