@@ -26,6 +26,7 @@
 #include "burr/school/store.h"
 #include "support/places.h"
 #include "user.h"
+#include "window/mill/mill_keys.h"
 #include "window/parts/sessions.h"
 #include "window/review/enter_session.h"
 #include "window/review/review_page.h"
@@ -267,7 +268,7 @@ TEST_F(ReviewWindow, AScanOfOnesOwnIsNotInTheModeOfTheCaseBefore) {
   const auto mode_of = [&](const fs::path& file, record::Mode mode) {
     record::Identity identity;
     identity.mode = mode;
-    StartPage page(*desk_, {}, identity);
+    StartPage page(*desk_, mill_help_rows, {}, identity);
     drop(file);
     auto choice = page.ask("", 20);
     EXPECT_TRUE(choice && choice->open);

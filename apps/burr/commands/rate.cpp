@@ -79,22 +79,22 @@ Status list(const Options& options, school::Store& store) {
   const std::uint64_t seed = seed_of(options);
   const auto queue = school::to_mark(store, options.rater, hash, seed);
   if (!queue) return queue.error();
-  Json json = {{"rater", options.rater},
-               {"seed", seed},
-               {"left", queue->size()},
-               {"sessions", Json::array()}};
+  Json account = {{"rater", options.rater},
+                  {"seed", seed},
+                  {"left", queue->size()},
+                  {"sessions", Json::array()}};
   if (!options.json)
     fmt::print("{} to mark by {}, in random order (--seed {})\n", counted(queue->size(), "session"),
                base::printable(options.rater), seed);
   for (std::size_t n = 0; n < queue->size() && n < options.most; ++n) {
     const school::Product& one = (*queue)[n];
     if (options.json)
-      json["sessions"].push_back({{"session", one.session}, {"case", one.case_name}});
+      account["sessions"].push_back({{"session", one.session}, {"case", one.case_name}});
     else
       fmt::print("{}  {}\n", one.session, base::printable(one.case_name));
   }
   if (options.json)
-    fmt::print("{}\n", json_line(json));
+    fmt::print("{}\n", json_line(account));
   else if (queue->size() > options.most)
     fmt::print("and {} more\n", queue->size() - options.most);
   return fine();
@@ -112,19 +112,19 @@ Status show_items(const Options& options, school::Store& store) {
   const auto rubric = school::rubric_in(store, scores->front().rubric_hash);
   if (!rubric) return rubric.error();
   const auto read = scoring::parse_rubric(rubric->text, rubric->name);
-  Json json = {{"session", options.session}, {"items", Json::array()}};
+  Json account = {{"session", options.session}, {"items", Json::array()}};
   for (const school::ItemRow& one : *items) {
     std::string text;
     if (const scoring::Item* item = read ? read->item(one.id) : nullptr; item != nullptr)
       if (const auto say = item->say.by_language.find("en"); say != item->say.by_language.end())
         text = say->second;
     if (options.json)
-      json["items"].push_back({{"id", one.id}, {"part", one.part}, {"say", text}});
+      account["items"].push_back({{"id", one.id}, {"part", one.part}, {"say", text}});
     else
       fmt::print("{:<8} {:<24} {}\n", one.part, base::printable(one.id),
                  base::printable(text, 300));
   }
-  if (options.json) fmt::print("{}\n", json_line(json));
+  if (options.json) fmt::print("{}\n", json_line(account));
   return fine();
 }
 
@@ -205,20 +205,20 @@ Status draw(const Options& options, school::Store& store) {
   if (trouble)
     return error(Trouble::io, fmt::format("{}: cannot be made: {}",
                                           base::printable(options.pictures), trouble.message()));
-  Json json = Json::array();
+  Json account = Json::array();
   for (const report::ReportArtist::Plain& one : *pictures) {
     auto file = base::NewFile::create((fs::path(options.pictures) / (one.name + ".png")).string());
     if (!file) return file.error();
     file->write(one.picture.png);
     if (const Status written = file->put_in_place(); !written) return written;
-    json.push_back({{"name", one.name},
-                    {"wide_mm", 1e3 * one.wide},
-                    {"width", one.picture.width},
-                    {"height", one.picture.height}});
+    account.push_back({{"name", one.name},
+                       {"wide_mm", 1e3 * one.wide},
+                       {"width", one.picture.width},
+                       {"height", one.picture.height}});
   }
   auto list_file = base::NewFile::create((fs::path(options.pictures) / "pictures.json").string());
   if (!list_file) return list_file.error();
-  list_file->write(json_line(json));
+  list_file->write(json_line(account));
   if (const Status written = list_file->put_in_place(); !written) return written;
   fmt::print("{} in {}\n", counted(pictures->size(), "picture"), base::printable(options.pictures));
   return fine();

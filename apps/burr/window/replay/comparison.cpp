@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shared/words.h"
+#include "window/parts/hud.h"
 #include "window/replay/timeline_panel.h"
 
 namespace burr::app {

@@ -11,6 +11,7 @@
 #include "shared/interrupt.h"
 #include "shared/words.h"
 #include "window/parts/export_page.h"
+#include "window/parts/hud.h"
 #include "window/parts/measuring.h"
 #include "window/parts/see_through.h"
 #include "window/replay/replay_view.h"
