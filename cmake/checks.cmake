@@ -173,7 +173,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # build only. The rooms that compute, and those whose libraries are large (Boost.Beast, databases), are
   # for the full tier.
   set(asan_rooms base volume edit surface io importing record)
-  set(asan_more_rooms rt math tool haptics tick device school serve)
+  set(asan_more_rooms rt math tool haptics tick device school net)
   set(asan_filter_haptics "-*Million*:*Random*")
   set(asan_filter_importing "-ScanLaw.WhatIsKeptIsWhatTheMeshHas")  # the longest of random shapes
   set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads

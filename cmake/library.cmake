@@ -51,6 +51,7 @@ list(APPEND BURR_SOURCES ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 #     burr_sound         + SDL                                    sound
 #     burr_device_...    + what its maker gives                   one each
 #     burr_workshop      + all of these, OpenSSL's hashes                        opens things: bone, place, hand, recorder, live surface
+#     burr_front         + nothing                                what a window and a page say and show: words, guidance, report, the mouse
 #
 # burr_part(NAME WITH TARGET... FROM GLOB...): the sources that match; each belongs to one part.
 set(rest ${BURR_SOURCES})
@@ -81,7 +82,11 @@ foreach(vendor crtk forcedimension haply openhaptics polhem)
   elseif(vendor STREQUAL "haply")
     list(APPEND needs nlohmann_json::nlohmann_json)
   endif()
-  burr_part(burr_device_${vendor} FROM device/${vendor}/ WITH ${needs})
+  set(speaks "")
+  if(vendor STREQUAL "haply")
+    set(speaks net/web_socket)
+  endif()
+  burr_part(burr_device_${vendor} FROM device/${vendor}/ ${speaks} WITH ${needs})
 endforeach()
 # X11's headers define Status, None and other names as macros: what follows them in one unit would not compile
 set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/render/gl/x_errors.cpp ${PROJECT_SOURCE_DIR}/src/burr/render/gl/xr_binding.cpp
@@ -89,19 +94,23 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/burr/render/gl/x_errors.cp
 burr_part(burr_render_gl FROM render/ WITH PkgConfig::EPOXY PkgConfig::SDL2 meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})
 burr_part(burr_sound FROM sound/ WITH PkgConfig::SDL2 ${CMAKE_DL_LIBS})
 burr_part(burr_workshop FROM workshop/ WITH OpenSSL::Crypto ${CMAKE_DL_LIBS})
+include(${PROJECT_SOURCE_DIR}/cmake/words.cmake)
+burr_part(burr_front FROM words/ guidance/ report/ mouse/ MORE ${CMAKE_BINARY_DIR}/words/word_texts.cpp
+  WITH nlohmann_json::nlohmann_json)
+target_include_directories(burr_front PRIVATE ${CMAKE_BINARY_DIR}/words)  # the keys
 burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ surgeon/ sim/
   MORE ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp WITH ${CMAKE_DL_LIBS})
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp
     ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp
   WITH ZLIB::ZLIB BZip2::BZip2 PkgConfig::ZSTD PkgConfig::ASSIMP nlohmann_json::nlohmann_json ${CMAKE_DL_LIBS})
-# The web server is for the program alone: who cuts bone with libburr.so loads no TLS.
-set(serve_sources ${rest})
-list(FILTER serve_sources INCLUDE REGEX "/src/burr/serve/")
-list(REMOVE_ITEM rest ${serve_sources})
-# So is what asks other servers.
+# The web server and what asks other servers are for the program alone: who cuts bone with libburr.so loads no TLS.
+set(net_sources ${rest})
+list(FILTER net_sources INCLUDE REGEX "/src/burr/net/")
+list(REMOVE_ITEM rest ${net_sources})
+# So is what sends statements.
 set(lrs_sources ${rest})
-list(FILTER lrs_sources INCLUDE REGEX "/src/burr/(http|lrs)/")
+list(FILTER lrs_sources INCLUDE REGEX "/src/burr/lrs/")
 list(REMOVE_ITEM rest ${lrs_sources})
 # The store of learners is for the program alone: who cuts bone with libburr.so loads no database.
 set(school_sources ${rest})
@@ -122,13 +131,14 @@ endif()
 set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/burr/base/helper_program.cpp APPEND PROPERTY
   COMPILE_DEFINITIONS BURR_LIBEXEC_FROM_LIB="${BURR_LIBEXEC_FROM_LIB}")
 burr_common_headers(burr_files <fmt/format.h>)
-foreach(part burr_render_gl burr_workshop burr_device_haply)
+foreach(part burr_render_gl burr_workshop burr_front burr_device_haply)
   burr_glue_for_asan(${part})
 endforeach()
 foreach(part burr_session burr_device_crtk burr_device_forcedimension burr_device_openhaptics burr_device_polhem)
   burr_common_headers(${part} REUSE_FROM burr_files)  # the same options, so one set of headers for all
 endforeach()
 burr_common_headers(burr_render_gl <fmt/format.h>)
+burr_common_headers(burr_front <fmt/format.h> <nlohmann/json.hpp>)
 foreach(part burr_workshop burr_device_haply)
   if(BURR_SANITIZE MATCHES "address")  # other options
     burr_common_headers(${part} <fmt/format.h>)
@@ -139,6 +149,7 @@ endforeach()
 
 add_library(burr SHARED)
 target_link_libraries(burr PUBLIC burr_core PRIVATE $<BUILD_INTERFACE:burr_options>)
+target_include_directories(burr PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/words>)  # the keys of the room `words`
 foreach(part ${BURR_PARTS})
   target_link_libraries(burr PRIVATE $<BUILD_INTERFACE:${part}>)
 endforeach()
@@ -156,18 +167,18 @@ set(reading ${BURR_SOURCES} ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp)
 list(FILTER reading INCLUDE REGEX "/(base|io|importing|record|scenario|fit|third_party)/|/workshop/device_book[.]cpp$|/surgeon/motion[.]cpp$|/scoring/rubric[.]cpp$|/sim/(replay|session_words)[.]cpp$|/device/(haply/message|polhem/line)[.]cpp$")
 burr_reads_files(${reading})
 
-add_library(burr_serve STATIC ${serve_sources})
-target_link_libraries(burr_serve PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
+add_library(burr_net STATIC ${net_sources})
+target_link_libraries(burr_net PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
 add_library(burr_school STATIC ${school_sources})
 target_link_libraries(burr_school PUBLIC burr PRIVATE burr_options fmt::fmt nlohmann_json::nlohmann_json
   PkgConfig::SQLITE PkgConfig::POSTGRES OpenSSL::Crypto)
 add_library(burr_lrs STATIC ${lrs_sources})
-target_link_libraries(burr_lrs PUBLIC burr_school PRIVATE burr burr_options fmt::fmt nlohmann_json::nlohmann_json OpenSSL::SSL)
+target_link_libraries(burr_lrs PUBLIC burr_school burr_net PRIVATE burr burr_options fmt::fmt nlohmann_json::nlohmann_json)
 burr_common_headers(burr_school <fmt/format.h>)
 add_library(burr_dataset STATIC ${dataset_sources})
 target_link_libraries(burr_dataset PUBLIC burr PRIVATE burr_options fmt::fmt PkgConfig::HDF5)
 burr_common_headers(burr_dataset <fmt/format.h>)
-foreach(part burr_serve burr_school burr_lrs)
+foreach(part burr_net burr_school burr_lrs)
   burr_glue_for_asan(${part})
 endforeach()
 

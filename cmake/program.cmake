@@ -1,8 +1,6 @@
 # the program `burr`: one file per subcommand
 file(GLOB_RECURSE BURR_APP CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/*.cpp)
 if(BURR_APP)
-  include(${PROJECT_SOURCE_DIR}/cmake/words.cmake)
-
   # The instructor's page becomes part of the program.
   set(BURR_PAGE_FILES "")
   foreach(file index.html school.css school.mjs live.mjs rating.mjs replay.mjs words.mjs rating_words.mjs)
@@ -24,24 +22,25 @@ if(BURR_APP)
 
   # burr_of_program(TARGET [HEADER...]): what all that is compiled of it have in common; HEADER: parsed once for all
   function(burr_of_program target)
-    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr
       ${PROJECT_SOURCE_DIR}/third_party)
-    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_serve burr_dataset burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
+    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_net burr_dataset burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
     burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp> ${ARGN})
     burr_glue(${target})
   endfunction()
 
-  # the parts that tests use as well, compiled once: the window, the report, the doctor, and what they need
-  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/film_file commands/hand_options commands/html_page commands/interrupt commands/law_choice commands/outputs commands/picture_size commands/piece_words commands/recording commands/session_words commands/tool_options commands/work school/products serve/stations
+  # the parts that tests use as well, compiled once: the floors below the subcommands, the window, and of the trials what is named
+  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/session_words school/products serve/stations
     devices/trial devices/trial_words doctor/run_in_process doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
-  file(GLOB_RECURSE window CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/window/*.cpp)
-  file(GLOB report CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/report/*.cpp)
-  list(APPEND BURR_APP_PARTS ${window} ${report})
+  foreach(floor shared window)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/apps/burr/${floor}/*.cpp)
+    list(APPEND BURR_APP_PARTS ${sources})
+  endforeach()
   list(REMOVE_ITEM BURR_APP ${BURR_APP_PARTS})
-  add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS} ${CMAKE_BINARY_DIR}/words/word_texts.cpp)
+  add_library(burr_app STATIC EXCLUDE_FROM_ALL ${BURR_APP_PARTS})
   burr_of_program(burr_app)
 
   add_executable(burr_program ${BURR_APP} ${CMAKE_BINARY_DIR}/page_files.cpp ${CMAKE_BINARY_DIR}/one_sphere.cpp)

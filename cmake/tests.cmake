@@ -56,13 +56,12 @@ foreach(room ${rooms})
     add_executable(test_${room} ${sources} ${kernels})
     target_link_libraries(test_${room} PRIVATE burr_test_support burr_options GTest::gtest_main nlohmann_json::nlohmann_json
       ZLIB::ZLIB PkgConfig::ZSTD PkgConfig::ASSIMP PkgConfig::EPOXY PkgConfig::SDL2)
-    if(room MATCHES "^(window|report|sound|devices|doctor)$")  # of the program, not of the library
-      target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${CMAKE_BINARY_DIR}/words
-        ${PROJECT_SOURCE_DIR}/third_party)
+    if(room MATCHES "^(window|sound|devices|doctor)$")  # of the program, not of the library
+      target_include_directories(test_${room} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr ${PROJECT_SOURCE_DIR}/third_party)
       target_link_libraries(test_${room} PRIVATE burr_app CLI11::CLI11 PkgConfig::IMGUI)
     endif()
-    if(room STREQUAL serve)
-      target_link_libraries(test_serve PRIVATE burr_serve)
+    if(room STREQUAL net)
+      target_link_libraries(test_net PRIVATE burr_net)
     endif()
     if(room STREQUAL school)
       target_link_libraries(test_school PRIVATE burr_school burr_lrs)

@@ -1,4 +1,4 @@
-# The texts of the window become part of the program: words/*.toml, one file for each language, English first.
+# The texts of window, page and report become part of the library: words/*.toml, one file for each language, English first.
 # The keys of the English file are the enumerators of `Word`.
 set(english ${PROJECT_SOURCE_DIR}/words/en.toml)
 file(GLOB word_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/words/*.toml)
@@ -19,5 +19,5 @@ foreach(key ${keys})
     string(APPEND BURR_WORD_KEYS "BURR_WORD(${key})\n")
   endif()
 endforeach()
-configure_file(${PROJECT_SOURCE_DIR}/cmake/words.h.in ${CMAKE_BINARY_DIR}/words/word_keys.h @ONLY)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/words.h.in ${CMAKE_BINARY_DIR}/words/burr/words/word_keys.h @ONLY)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/words.cpp.in ${CMAKE_BINARY_DIR}/words/word_texts.cpp @ONLY)

@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Prints which rooms of src/burr include which, and fails where this differs from docs/develop/architecture.md.
+"""Prints which rooms of src/burr and which folders of apps/burr include which, and fails where this differs from
+docs/develop/architecture.md and program_floors.md.
 
     scripts/rooms.py [ROOT]               ROOT: the folder that holds src/burr and apps; default: this checkout
     scripts/rooms.py --above ROOM         prints ROOM and the rooms that include it, as far as they have tests (./test --room)
 
 Fails on a room that is not listed, an arrow that is not listed, rooms that include each other in a circle, files that
-include each other in a circle (in src/burr and in apps; a header and the source beside it count as one), and a
-third-party header in the wrong place: graphics and headsets only in render/gl, the loudspeaker only in sound, file
-formats only in io, a vendor's library only in its own folder.
+include each other in a circle (in src/burr and in apps; a header and the source beside it count as one), a folder of
+apps/burr that is on no floor or includes one that is not on a lower floor, and a third-party header in the wrong place:
+graphics and headsets only in render/gl, the loudspeaker only in sound, file formats only in io, HTTP and WebSocket only
+in net, a vendor's library only in its own folder.
 """
 import collections
+import os
 import pathlib
 import re
 import sys
@@ -22,7 +25,8 @@ ALLOWED = {
     "rt": "",
     "volume": "rt",
     "tool": "rt",
-    "device": "rt",
+    "net": "",
+    "device": "rt net",
     "people": "",
     "edit": "volume tool rt",
     "haptics": "volume tool rt device",
@@ -42,13 +46,15 @@ ALLOWED = {
     "metrics": "record tick thermal volume tool rt",
     "scoring": "metrics record rt scenario volume",
     "school": "people record",
-    "serve": "",
-    "http": "",
-    "lrs": "school http",
+    "words": "scenario",
+    "guidance": "words workshop scoring record scenario tool volume rt",
+    "report": "words scoring metrics workshop sim record render surface scenario edit volume rt",
+    "mouse": "workshop device render scenario rt",
+    "lrs": "school net",
     "workshop": "sim edit tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
     "dataset": "workshop sim record render surface tick device volume tool",
 }
-BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}}  # the lowest rooms, with shorter lists
+BASICS = {"base": set(), "math": {"base"}, "rt": {"base"}, "net": {"base"}}  # the lowest rooms, with shorter lists
 
 # Of these rooms only headers with plain structs: (from, to) -> headers.
 ONLY = {
@@ -57,6 +63,7 @@ ONLY = {
     ("importing", "rt"): {"lanes.h", "simd.h"},
     ("importing", "surface"): {"cases.h", "enclosed.h"},
     ("haptics", "device"): {"hand.h"},
+    ("device", "net"): {"web_socket.h"},
     ("surgeon", "rt"): {"rt.h"},
     ("surgeon", "device"): {"hand_path.h", "device.h"},
     ("surgeon", "scenario"): {"lesson.h"},
@@ -72,7 +79,31 @@ ONLY = {
     ("metrics", "tool"): {"burr_tool.h", "state.h", "places.h", "shaped_tool.h"},
     ("scoring", "record"): {"player.h", "course.h"},
     ("school", "record"): {"identity.h"},
+    ("words", "scenario"): {"lesson.h"},
+    ("guidance", "record"): {"course.h", "private_text.h"},
+    ("guidance", "scoring"): {"step_done.h"},
+    ("guidance", "workshop"): {"label_check.h"},
+    ("report", "edit"): {"piece_store.h"},
+    ("report", "sim"): {"move_pieces.h"},
+    ("mouse", "scenario"): {"rack.h"},
+    ("mouse", "workshop"): {"device_book.h"},
 }
+
+# The floors of apps/burr, the lowest first: a folder includes itself and folders of lower floors, so none of its own
+# floor. "." is main.cpp.
+FLOORS = [
+    "shared window/hands window/station",
+    "batch bench devices school",
+    "doctor serve",
+    "verify",
+    "people",
+    "window/ui",
+    "window/parts",
+    "window/import window/mill window/rate window/replay window/review window/start",
+    "window/shell",
+    "commands",
+    ".",
+]
 
 # Third-party headers and the folders that may include them.
 ELSEWHERE = [
@@ -80,6 +111,7 @@ ELSEWHERE = [
     (r"openxr/", ["render/gl"], "a headset"),
     (r"SDL", ["render/gl", "sound"], "graphics and sound"),
     (r"sqlite3|libpq|postgresql", ["school"], "a database"),
+    (r"boost/(beast|asio)", ["net"], "HTTP and WebSocket"),
     (r"hdf5[.]h|H5", ["dataset"], "a format of data sets"),
     (r"itk|gdcm|dcmtk/|assimp/|vtk|png[.]h|yaml[.]h", ["io"], "a file format's library"),
     (r"dds/|crtk_messages", ["device/crtk"], "the bus of ROS 2"),
@@ -182,6 +214,29 @@ def look(root):
     return doors, wrong
 
 
+def look_at_floors(app):
+    """The same for the folders of apps/burr."""
+    level = {folder: number for number, floor in enumerate(FLOORS) for folder in floor.split()}
+    doors, wrong = collections.Counter(), []
+    files = dict(read(app))
+    for path, names in files.items():
+        where, folder = f"apps/burr/{path}", path.parent.as_posix()
+        if folder not in level:
+            wrong.append(f"{where}: folder '{folder}' is on no floor; see docs/develop/program_floors.md")
+            continue
+        for _, name in names:
+            places = [pathlib.Path(os.path.normpath(place)) for place in (path.parent / name, name)]
+            found = next((place for place in places if place in files), None)
+            other = found.parent.as_posix() if found else folder
+            if other == folder:
+                continue
+            doors[folder, other] += 1
+            if other in level and level[other] >= level[folder]:
+                same = "the same" if level[other] == level[folder] else "a higher"
+                wrong.append(f"{where}: includes {name}; {other} is on {same} floor")
+    return doors, wrong
+
+
 def file_arrows(root):
     """{unit: units that it includes}; a unit is a header and its source: a path from ROOT without its suffix."""
     known = {}
@@ -251,10 +306,15 @@ def main():
         print(f"rooms.py: {root}: no such folder", file=sys.stderr)
         return 2
     doors, wrong = look(root)
+    app_doors, app_wrong = look_at_floors(checkout / "apps" / "burr")
+    wrong += app_wrong
     rooms = sorted({p.parts[0] for p, _ in read(root) if len(p.parts) > 1}, key=lambda r: list(ALLOWED).index(r) if r in ALLOWED else 99)
     for room in rooms:
         print(f"{room:9} -> " + (", ".join(f"{b} ({n})" for (a, b), n in sorted(doors.items()) if a == room) or "nobody"))
-    round_trips = circles(doors)
+    folders = [folder for floor in FLOORS for folder in floor.split()]
+    for folder in sorted({a for a, _ in app_doors}, key=folders.index):
+        print(f"apps/burr/{folder} -> " + ", ".join(f"{b} ({n})" for (a, b), n in sorted(app_doors.items()) if a == folder))
+    round_trips = circles(doors) + circles(app_doors)
     file_trips = file_circles(file_arrows(checkout))
     if round_trips or not file_trips:
         print("circles: " + (", ".join(round_trips) or "none"))

@@ -22,13 +22,13 @@
 #include "burr/base/progress.h"
 #include "burr/math/aabb.h"
 #include "burr/math/rotation.h"
+#include "burr/mouse/mouse_hand.h"
 #include "burr/phantom/build.h"
 #include "burr/record/bone_blob.h"
 #include "burr/tick/servo.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
 #include "page_recorder.h"
-#include "window/hands/mouse_hand.h"
 #include "work_of_page.h"
 
 namespace {
@@ -41,7 +41,7 @@ constexpr double kRpm = 80000;  // cases/temporal_bone.toml
 
 struct Core : web::ShownBone {
   std::unique_ptr<volume::IsoVertices> surface;
-  std::unique_ptr<app::MouseHand> hand;
+  std::unique_ptr<mouse::MouseHand> hand;
   std::unique_ptr<tick::Servo> servo;
   bool own = false;                             // bone of the user's own scan
   std::unique_ptr<web::PageRecorder> recorder;  // nullptr: it has failed, or is finished
@@ -157,7 +157,7 @@ EMSCRIPTEN_KEEPALIVE void core_begin() {
   above.p = web::work_at() - 20e-3 * web::work_into();
   above.q = math::shortest_rotation(Vec3::UnitZ(), -web::work_into());
   if (c.own) above = above_all(*c.bone);
-  c.hand = std::make_unique<app::MouseHand>(above);
+  c.hand = std::make_unique<mouse::MouseHand>(above);
   tick::ServoSettings settings = settings_for(c.hand->spec());
   // the servo takes no burr of less than four voxels
   settings.burr.radius = std::max(settings.burr.radius, 2 * c.bone->grid().voxel);
@@ -206,11 +206,11 @@ EMSCRIPTEN_KEEPALIVE const char* core_why() { return core->why.c_str(); }
 
 // Where the hand shall be: the bytes of a MouseHand::Aim are written here, then core_aimed() is called.
 EMSCRIPTEN_KEEPALIVE void* core_aim() {
-  static app::MouseHand::Aim aim;
+  static mouse::MouseHand::Aim aim;
   return &aim;
 }
 EMSCRIPTEN_KEEPALIVE void core_aimed() {
-  core->hand->aim(*static_cast<app::MouseHand::Aim*>(core_aim()));
+  core->hand->aim(*static_cast<mouse::MouseHand::Aim*>(core_aim()));
 }
 
 EMSCRIPTEN_KEEPALIVE void core_step(int ticks) {

@@ -22,8 +22,7 @@ list(FILTER render EXCLUDE REGEX
   "/(context|headset|headset_start|x_errors|xr_binding|bone_scene|coarsening|coarse_mesh|picture)\\.cpp$")
 set(phantom build shapes sculpt temporal_bone temporal_bone_model)
 list(TRANSFORM phantom REPLACE "(.+)" "${src}/phantom/\\1.cpp")
-set(hands ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/mouse_aim.cpp ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/mouse_hand.cpp
-  ${PROJECT_SOURCE_DIR}/apps/burr/window/hands/grip.cpp)
+file(GLOB mouse CONFIGURE_DEPENDS ${src}/mouse/*.cpp)
 set(record pen mcap/mcap_writer schema protobuf tick_columns bricks command_json session_schema session_info view course grid_json tool_json identity private_text bone_blob)
 set(reading player player_bone player_notes assumed_tool mcap/mcap_reader)
 foreach(list record reading)
@@ -34,10 +33,10 @@ list(APPEND record ${src}/sim/session_words.cpp ${src}/scenario/recipe.cpp ${src
 file(GLOB web CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/*.cpp)
 list(FILTER web EXCLUDE REGEX "/whole_chunks_web\\.cpp$")
 
-# burr_web_parts(NAME SOURCE...): sources of the rooms and of the program, compiled as they are
+# burr_web_parts(NAME SOURCE...): sources of the rooms, compiled as they are
 function(burr_web_parts name)
   add_library(${name} OBJECT ${ARGN})
-  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/web/gaps ${PROJECT_SOURCE_DIR}/apps/burr)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/web/gaps)
   target_include_directories(${name} SYSTEM PUBLIC ${headers})
   target_compile_definitions(${name} PUBLIC FMT_HEADER_ONLY)
   target_compile_options(${name} PUBLIC "SHELL:-include ${PROJECT_SOURCE_DIR}/web/gaps/std_gaps.h")
@@ -55,7 +54,7 @@ list(APPEND idle ${src}/edit/tool_body.cpp ${src}/edit/mirror.cpp ${src}/edit/br
   ${src}/tick/held_piece.cpp ${src}/tick/mirror_plane.cpp ${src}/tick/shaped_cutting.cpp ${src}/tool/shape_grid.cpp
   ${src}/tool/grid_of_mesh.cpp ${src}/tool/tool.cpp)
 set_source_files_properties(${idle} PROPERTIES COMPILE_OPTIONS "-Oz")
-burr_web_parts(burr_page_parts ${render} ${hands} ${src}/workshop/work_view.cpp ${src}/workshop/piece_look.cpp)
+burr_web_parts(burr_page_parts ${render} ${mouse} ${src}/workshop/work_view.cpp ${src}/workshop/piece_look.cpp)
 target_compile_options(burr_page_parts PRIVATE -Oz)
 
 # what stands in place of sources of the rooms (*_web.cpp), and what JavaScript calls
@@ -97,16 +96,14 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_
 foreach(texts cases rubrics tools)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_${texts}.cpp.in ${CMAKE_BINARY_DIR}/built_in_${texts}.cpp @ONLY)
 endforeach()
-set(app ${PROJECT_SOURCE_DIR}/apps/burr)
-file(GLOB score CONFIGURE_DEPENDS ${src}/scoring/*.cpp ${src}/metrics/*.cpp ${src}/scenario/*.cpp ${app}/report/*.cpp)
-list(FILTER score EXCLUDE REGEX "/(report_pictures|recipe|case_text|write_case)\\.cpp$")
+file(GLOB score CONFIGURE_DEPENDS ${src}/scoring/*.cpp ${src}/metrics/*.cpp ${src}/scenario/*.cpp ${src}/report/*.cpp
+  ${src}/words/*.cpp ${src}/guidance/*.cpp)
+list(FILTER score EXCLUDE REGEX "/(report_pictures|step_watch|recipe|case_text|write_case)\\.cpp$")
 file(GLOB bones CONFIGURE_DEPENDS ${src}/phantom/*.cpp)
 list(REMOVE_ITEM bones ${phantom})
 burr_web_parts(burr_score_parts ${score} ${bones} ${src}/workshop/label_check.cpp ${src}/workshop/allowed.cpp
   ${src}/workshop/piece_plan.cpp ${src}/sim/move_pieces.cpp ${src}/base/text_file.cpp ${src}/base/markup.cpp
-  ${src}/base/base64.cpp ${app}/commands/score_words.cpp ${app}/commands/piece_words.cpp ${app}/window/mill/steps.cpp
-  ${app}/window/mill/step_rings.cpp ${app}/window/mill/technique.cpp ${src}/workshop/spared_distance.cpp
-  ${app}/window/mill/suits.cpp ${app}/window/shell/words.cpp ${app}/window/shell/anatomy.cpp
+  ${src}/base/base64.cpp ${src}/workshop/spared_distance.cpp
   ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/words/word_texts.cpp
   ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_rubrics.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp)
 target_compile_options(burr_score_parts PRIVATE -Os)

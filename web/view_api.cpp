@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "burr/mouse/mouse_aim.h"
 #include "burr/render/governor.h"
 #include "burr/render/held_tool.h"
 #include "burr/render/renderer.h"
@@ -26,7 +27,6 @@
 #include "burr/render/wound.h"
 #include "burr/workshop/piece_look.h"
 #include "burr/workshop/work_view.h"
-#include "window/hands/mouse_aim.h"
 #include "work_of_page.h"
 
 namespace {
@@ -47,8 +47,8 @@ struct View {
   render::Scene scene;
   std::optional<render::FrameGovernor> governor;
   std::optional<render::Wound> wound;
-  std::optional<app::MouseAim> aim;
-  app::MouseHand::Aim hand;
+  std::optional<mouse::MouseAim> aim;
+  mouse::MouseHand::Aim hand;
   render::HeldTool held;
   bool leans = true;  // the tool follows a mouse, and is drawn as a hand would hold it
   std::map<int, std::shared_ptr<const render::ToolLook>> looks;     // of tools of the rack
@@ -73,7 +73,7 @@ View& view() {
   return one;
 }
 
-// As the window begins (apps/burr/window/mill/make_ready.cpp).
+// As the window begins (apps/burr/shared/make_ready.cpp).
 render::Camera first_camera() {
   const double height = std::clamp(20 * web::kBurrRadius, 20e-3, 70e-3);
   return render::view_of_work(web::work_at(), -web::work_into(), 2 * height);
@@ -305,12 +305,12 @@ EMSCRIPTEN_KEEPALIVE const void* view_aim(double x, double y, int pressed, doubl
   View& v = view();
   const render::Ray ray =
       render::ray_through(v.scene.camera, x, y, v.renderer->width(), v.renderer->height());
-  std::optional<app::MouseAim::Push> push;
+  std::optional<mouse::MouseAim::Push> push;
   if (pressed != 0) push = {depth, spindle};
   v.hand = v.aim->at(v.scene, ray, push, left_handed != 0);
   return &v.hand;
 }
-EMSCRIPTEN_KEEPALIVE int view_aim_size() { return sizeof(app::MouseHand::Aim); }
+EMSCRIPTEN_KEEPALIVE int view_aim_size() { return sizeof(mouse::MouseHand::Aim); }
 // Whether there is bone at this point.
 EMSCRIPTEN_KEEPALIVE int view_hits(double x, double y) {
   View& v = view();

@@ -19,12 +19,12 @@
 #include <vector>
 
 #include "burr/base/version.h"
-#include "commands/command.h"
 #include "commands/complete.h"
-#include "commands/console.h"
 #include "commands/examples.h"
-#include "commands/interrupt.h"
 #include "commands/limits.h"
+#include "shared/command.h"
+#include "shared/console.h"
+#include "shared/interrupt.h"
 
 namespace burr::app {
 namespace {

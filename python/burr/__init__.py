@@ -18,6 +18,5 @@ __all__ = ["BUILD", "ROWS_VERSION", "Bone", "Cancelled", "Distance", "Error", "E
 # what the program does for a recording
 from burr import program as _program  # noqa: E402
 
-Recording.report = _program.report
 Recording.picture = _program.picture
 del _program

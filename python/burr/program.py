@@ -1,4 +1,4 @@
-"""The program `burr` from Python: for what it can do and the module cannot, such as reports and scripted surgeons.
+"""The program `burr` from Python: for what it can do and the module cannot, such as scripted surgeons.
 
     import burr.program
     account = burr.program.run("surgeon", "block", "--level", "expert", "--seed", "1000", "--json")
@@ -47,12 +47,6 @@ def run(*arguments: Any) -> dict[str, Any] | None:
         return None
     account: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     return account
-
-
-def report(self: burr.Recording, out: str, *, rubric: str = "", language: str = "en", pictures: int = 12, beside: str = "") -> None:
-    """One page (.html) on the session, as `burr report`. beside: a recording of an expert on the same case."""
-    more = ["--rubric", rubric] * bool(rubric) + ["--beside", beside] * bool(beside) + _volume(self)
-    run("report", self.path, "--out", out, "--language", language, "--pictures", pictures, *more)
 
 
 def picture(self: burr.Recording, out: str, *, t: float | None = None, width: int = 1280, height: int = 720, view: str = "",

@@ -17,6 +17,7 @@
 #include "burr/workshop/recording.h"
 #include "burr/workshop/spared.h"
 #include "common.h"
+#include "report.h"
 #include "rows.h"
 
 namespace burr::python {
@@ -311,6 +312,18 @@ void add_recording(py::module_& module) {
                 "Measures of how the work was done (docs/teach/metrics.md).");
   recording.def("score", &Recording::score, "rubric"_a = "", py::kw_only(),
                 "progress"_a = py::none(), "As `burr score`.");
+  recording.def(
+      "report",
+      [](const Recording& self, const std::string& out, const std::string& rubric,
+         const std::string& language, int pictures, const std::string& beside,
+         const py::object& call) {
+        Work work(call);
+        write_report({self.path(), self.volume(), out, rubric, language, pictures, beside}, work);
+      },
+      "out"_a, py::kw_only(), "rubric"_a = "", "language"_a = "en", "pictures"_a = 12,
+      "beside"_a = "", "progress"_a = py::none(),
+      "One page (.html) on the session, as `burr report`. beside: a recording of an expert on the "
+      "same case.");
   recording.def("replay", &Recording::replay, py::kw_only(), "law"_a = "", "law_settings"_a = "",
                 "progress"_a = py::none(), "Simulates it again and compares every tick and brick.");
 }

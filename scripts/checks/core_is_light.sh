@@ -35,7 +35,7 @@ done < <(objects burr_core)
 names() { objects "$1" | xargs nm -g "$2" | awk -v kinds="$3" 'NF >= 2 && index(kinds, $(NF-1)) {print $NF}' | sort -u; }
 leaves=(burr_render_gl burr_sound burr_device_crtk burr_device_forcedimension burr_device_haply burr_device_openhaptics
   burr_device_polhem)
-top=burr_workshop  # may need all others; nothing needs it
+top=(burr_workshop burr_front)  # may need all others, and the second the first; nothing needs them
 not_above() {  # PART ABOVE...
   local part=$1 above found
   shift
@@ -44,12 +44,13 @@ not_above() {  # PART ABOVE...
     [ -z "$found" ] || complain "$part needs of $above: $(c++filt <<<"$found" | tr '\n' ' ')"
   done
 }
-not_above burr_core burr_files burr_session "${leaves[@]}" "$top"
-not_above burr_files burr_session "${leaves[@]}" "$top"
-not_above burr_session "${leaves[@]}" "$top"
+not_above burr_core burr_files burr_session "${leaves[@]}" "${top[@]}"
+not_above burr_files burr_session "${leaves[@]}" "${top[@]}"
+not_above burr_session "${leaves[@]}" "${top[@]}"
 for leaf in "${leaves[@]}"; do
   others=()
   for other in "${leaves[@]}"; do [ "$other" = "$leaf" ] || others+=("$other"); done
-  not_above "$leaf" "${others[@]}" "$top"
+  not_above "$leaf" "${others[@]}" "${top[@]}"
 done
+not_above burr_workshop burr_front
 exit $wrong

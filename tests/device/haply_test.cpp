@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "burr/device/haply/message.h"
-#include "burr/device/haply/web_socket.h"
 #include "burr/haptics/contact.h"
+#include "burr/net/web_socket.h"
 #include "burr/rt/flags.h"
 #include "device/fake/fake_haply.h"
 #include "device/stand_in.h"
@@ -709,10 +709,10 @@ TEST_F(InverseTest, OpenedAndClosedManyTimesNothingIsLeft) {
 // ---- the connection
 
 TEST_F(InverseTest, ALineThatIsNotConnectedTakesAndGivesNothing) {
-  WebSocket line(1000);
+  net::WebSocket line(1000);
   const auto is_none = [&line] {
     return !line.whole() && !line.send("{}") &&
-           line.receive(std::chrono::milliseconds(1)) == WebSocket::Received::lost;
+           line.receive(std::chrono::milliseconds(1)) == net::WebSocket::Received::lost;
   };
   EXPECT_TRUE(is_none()) << "not yet";
   EXPECT_NE(line.connect("", service_.port), "");
@@ -723,7 +723,7 @@ TEST_F(InverseTest, ALineThatIsNotConnectedTakesAndGivesNothing) {
   EXPECT_TRUE(line.whole());
   EXPECT_EQ(line.peer(), "127.0.0.1");
   EXPECT_TRUE(soon([&] {
-    return line.receive(std::chrono::milliseconds(1)) == WebSocket::Received::message;
+    return line.receive(std::chrono::milliseconds(1)) == net::WebSocket::Received::message;
   })) << "its greeting";
   line.close();
   EXPECT_TRUE(is_none()) << "no more";

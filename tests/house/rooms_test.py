@@ -80,6 +80,27 @@ class Rooms(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("circle of files: apps/burr/verify/page, apps/burr/verify/report\n", said)
 
+    def test_an_include_of_a_higher_floor_fails(self):
+        app = {**GOOD, "apps/burr/shared/work.h": "", "apps/burr/window/ui/desk.h": '#include "shared/work.h"\n'}
+        code, said = run(app)
+        self.assertEqual(code, 0, said)
+        self.assertIn("apps/burr/window/ui -> shared (1)", said)
+        code, said = run({**app, "apps/burr/shared/work.cpp": '#include "window/ui/desk.h"\n'})
+        self.assertEqual(code, 1)
+        self.assertIn("apps/burr/shared/work.cpp: includes window/ui/desk.h; window/ui is on a higher floor", said)
+        self.assertIn("circles: shared, window/ui", said)
+
+    def test_pages_do_not_know_each_other(self):
+        for name in ("window/mill/mill.h", "../mill/mill.h"):
+            code, said = run({**GOOD, "apps/burr/window/mill/mill.h": "", "apps/burr/window/rate/rate.cpp": f'#include "{name}"\n'})
+            self.assertEqual(code, 1)
+            self.assertIn(f"includes {name}; window/mill is on the same floor", said)
+
+    def test_a_folder_on_no_floor_fails(self):
+        code, said = run({**GOOD, "apps/burr/cellar/wine.h": ""})
+        self.assertEqual(code, 1)
+        self.assertIn("folder 'cellar' is on no floor", said)
+
     def test_two_circles_are_two_lines(self):
         both = {f"{room}/{one}.h": f'#include "burr/{room}/{other}.h"\n' for room in ("volume", "io") for one, other in ("ab", "ba")}
         code, said = run({**GOOD, **both})
@@ -117,6 +138,10 @@ class Rooms(unittest.TestCase):
     def test_formats_stay_at_the_border(self):
         self.bad("volume/load.cpp", "#include <itkImage.h>\n", "belongs into io")
         self.bad("surface/save.cpp", "#include <assimp/scene.h>\n", "belongs into io")
+
+    def test_http_stays_in_its_room(self):
+        self.bad("device/haply/line.cpp", "#include <boost/beast/core.hpp>\n", "HTTP and WebSocket belongs into net")
+        self.bad("device/link.cpp", '#include "burr/net/client.h"\n', "of net, device may know only web_socket.h")
 
     def test_a_vendor_stays_in_its_own_folder(self):
         self.bad("sim/a.cpp", "#include <HD/hd.h>\n", "a folder of its own under device/")

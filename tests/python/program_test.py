@@ -1,4 +1,4 @@
-"""What the program does for the module: reports, pictures of recordings; and pictures of sessions."""
+"""Reports and pictures are those of the program; and pictures of sessions."""
 import os
 import pathlib
 import subprocess
@@ -41,6 +41,10 @@ class Program(unittest.TestCase):
         self.assertGreater(len(mine.read_bytes()), 5000)
         with self.assertRaisesRegex(burr.Error, "html"):
             recording.report(str(self.folder / "mine.doc"))
+        with self.assertRaisesRegex(burr.Error, "klingon.*en, "):
+            recording.report(str(mine), language="klingon")
+        with self.assertRaisesRegex(burr.Error, "0 to 100"):
+            recording.report(str(mine), pictures=101)
         with self.assertRaisesRegex(burr.Error, "no-such-rubric"):
             recording.report(str(self.folder / "other.html"), rubric="no-such-rubric")
 

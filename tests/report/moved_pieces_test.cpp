@@ -16,18 +16,18 @@
 #include "burr/device/replayed_hand.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
+#include "burr/report/make_report.h"
+#include "burr/report/report_page.h"
+#include "burr/report/report_pictures.h"
+#include "burr/report/scored.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/sim/session.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/recording.h"
 #include "render/gpu.h"
-#include "report/make_report.h"
-#include "report/report_page.h"
-#include "report/report_pictures.h"
-#include "report/scored.h"
 #include "support/folder.h"
 
-namespace burr::app {
+namespace burr::report {
 namespace {
 
 using math::Vec3;
@@ -226,4 +226,4 @@ TEST(MovedPieces, ARecordingSaysWhetherThereAreAny) {
 }
 
 }  // namespace
-}  // namespace burr::app
+}  // namespace burr::report

@@ -10,19 +10,22 @@
 #include <utility>
 #include <vector>
 
-#include "report/advice.h"
-#include "report/evidence_strip.h"
-#include "report/report_page.h"
-#include "report/report_words.h"
-#include "report/self_marks.h"
+#include "burr/report/advice.h"
+#include "burr/report/evidence_strip.h"
+#include "burr/report/report_page.h"
+#include "burr/report/report_words.h"
+#include "burr/report/self_marks.h"
+#include "burr/words/words.h"
 #include "support/places.h"
-#include "window/shell/words.h"
 
-namespace burr::app {
+namespace burr::report {
 namespace {
 
 using scoring::Outcome;
 using scoring::Verdict;
+using words::speak;
+using words::word;
+using words::Word;
 
 constexpr const char* kRubric = R"([rubric]
 name = "r"
@@ -374,4 +377,4 @@ TEST(ReportPage, ShowsEveryTextAsText) {
 }
 
 }  // namespace
-}  // namespace burr::app
+}  // namespace burr::report

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "burr/http/client.h"
 #include "burr/lrs/sender.h"
+#include "burr/net/client.h"
 #include "burr/school/forget.h"
 #include "burr/school/outbox.h"
 #include "burr/school/sessions.h"
@@ -214,20 +214,20 @@ TEST(Sender, KnowsItsStatementAgain) {
 }
 
 TEST(HttpClient, ReadsAddresses) {
-  const auto one = http::parse_url("https://lrs.example.org:8443/xapi?a=b#c");
+  const auto one = net::parse_url("https://lrs.example.org:8443/xapi?a=b#c");
   ASSERT_TRUE(one);
   EXPECT_EQ(one->host, "lrs.example.org");
   EXPECT_EQ(one->port, "8443");
   EXPECT_EQ(one->target, "/xapi?a=b");
-  EXPECT_EQ(http::parse_url("https://[::1]/x")->host, "::1");
-  EXPECT_EQ(http::parse_url("https://h?x")->target, "/?x");
-  EXPECT_TRUE(http::parse_url("http://127.0.0.1:80/"));
+  EXPECT_EQ(net::parse_url("https://[::1]/x")->host, "::1");
+  EXPECT_EQ(net::parse_url("https://h?x")->target, "/?x");
+  EXPECT_TRUE(net::parse_url("http://127.0.0.1:80/"));
   for (const char* wrong :
        {"", "ftp://h/", "https://", "https://a:b@h/", "https://h:x/", "https://h /",
         "http://h.example/", "http://127.0.0.1.example/", "https://h\r\nX: y/", "h"})
-    EXPECT_FALSE(http::parse_url(wrong)) << wrong;
-  EXPECT_EQ(http::escaped("a b&\"ä"), "a%20b%26%22%C3%A4");
-  EXPECT_EQ(http::unescaped("a%20b+c%2"), "a b c%2");
+    EXPECT_FALSE(net::parse_url(wrong)) << wrong;
+  EXPECT_EQ(net::escaped("a b&\"ä"), "a%20b%26%22%C3%A4");
+  EXPECT_EQ(net::unescaped("a%20b+c%2"), "a b c%2");
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 #include "burr/scenario/case.h"
 #include "burr/scenario/open_lesson.h"
 #include "burr/workshop/label_check.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

@@ -11,9 +11,9 @@
 #include "burr/record/recorder.h"
 #include "burr/scenario/case.h"
 #include "commands/case_new.h"
-#include "commands/counted.h"
 #include "commands/session_words.h"
 #include "record/made_up.h"
+#include "shared/counted.h"
 
 namespace burr::app {
 namespace {

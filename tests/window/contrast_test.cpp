@@ -1,13 +1,13 @@
 // Every text of the window can be read: its contrast against what lies behind it is that of WCAG 2.2,
 // level AA, whatever the picture behind a panel shows.
-#include "window/shell/contrast.h"
+#include "window/ui/contrast.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 #include "window/user.h"
 
 namespace burr::app {

@@ -1,5 +1,5 @@
 // A user who takes bone, what was removed, and a picture out of a session that goes on.
-#include "window/mill/export_job.h"
+#include "window/parts/export_job.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 
 #include "burr/io/export_part.h"
-#include "window/mill/make_ready.h"
+#include "shared/make_ready.h"
 #include "window/mill/window.h"
 #include "window/user.h"
 

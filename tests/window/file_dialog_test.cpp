@@ -1,5 +1,5 @@
 // burr's own file dialog: what it lists, and the way through it by keyboard and by mouse.
-#include "window/shell/file_dialog.h"
+#include "window/ui/file_dialog.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Films on disk: ffprobe reads back the count, size and length that burr printed before the work.
-#include "commands/film_file.h"
+#include "shared/film_file.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 
 #include "support/folder.h"
 #include "support/places.h"
-#include "window/replay/film_job.h"
+#include "window/parts/film_job.h"
 
 namespace burr::app {
 namespace {

@@ -13,14 +13,14 @@
 #include <vector>
 
 #include "burr/device/replayed_hand.h"
+#include "burr/mouse/mouse_aim.h"
 #include "burr/render/pick.h"
 #include "burr/rt/flags.h"
 #include "burr/sim/session.h"
 #include "burr/volume/sample.h"
 #include "burr/workshop/live_surface.h"
-#include "commands/work.h"
-#include "window/hands/mouse_aim.h"
-#include "window/mill/make_ready.h"
+#include "shared/make_ready.h"
+#include "shared/work.h"
 
 namespace burr::app {
 namespace {
@@ -30,7 +30,7 @@ constexpr int kWidth = 1280, kHeight = 720, kTicksPerPicture = 16;
 
 struct Bench {
   Ready ready;
-  MouseAim aim;
+  mouse::MouseAim aim;
   tick::TickRow row;
 
   static std::optional<Bench> of(const std::string& name, double voxel_mm) {
@@ -44,7 +44,7 @@ struct Bench {
     auto ready = make_ready(options, std::move(*work), quiet);
     if (!ready) return std::nullopt;
     const double voxel = ready->session->bone().grid().voxel;
-    return Bench{std::move(*ready), MouseAim(voxel), {}};
+    return Bench{std::move(*ready), mouse::MouseAim(voxel), {}};
   }
 
   [[nodiscard]] const Vec3& burr() const { return row.contact.proxy; }
@@ -52,7 +52,7 @@ struct Bench {
     row = ready.session->servo().tick(false);
     ready.scene.burr.world_from_tool = {row.contact.proxy, row.hand.world_from_tool.q};
   }
-  void picture(double x, double y, const std::optional<MouseAim::Push>& push) {
+  void picture(double x, double y, const std::optional<mouse::MouseAim::Push>& push) {
     ready.scene.burr.radius = ready.session->servo().burr_radius();
     const render::Ray eye = render::ray_through(ready.scene.camera, x, y, kWidth, kHeight);
     ready.hands.mouse->aim(aim.at(ready.scene, eye, push, false));
@@ -166,7 +166,7 @@ TEST(HoverHand, PressedItMillsAndLetGoInTheBoneItIsInFrontOfItAtOnce) {
   aim_at_work(*bench);
   ASSERT_EQ(bench->row.ledger.removed, 0);
   for (int n = 0; n < 60; ++n) {
-    bench->picture(0.5 * kWidth, 0.5 * kHeight, MouseAim::Push{4e-3, 1});
+    bench->picture(0.5 * kWidth, 0.5 * kHeight, mouse::MouseAim::Push{4e-3, 1});
     for (int t = 0; t < kTicksPerPicture; ++t) bench->tick();
   }
   EXPECT_GT(bench->row.contact.force.norm(), 0.2);
@@ -188,7 +188,7 @@ TEST(HoverHand, InAHoleAsWideAsItselfTheBurrStaysWhenItIsLifted) {
   camera.elevation = 1.5;  // straight into the hole
   aim_at_work(*bench);
   for (int n = 0; n < 250; ++n) {
-    bench->picture(0.5 * kWidth, 0.5 * kHeight, MouseAim::Push{6e-3, 1});
+    bench->picture(0.5 * kWidth, 0.5 * kHeight, mouse::MouseAim::Push{6e-3, 1});
     for (int t = 0; t < kTicksPerPicture; ++t) bench->tick();
     bench->ready.worker->settle(
         [&](const surface::Skin& skin) { workshop::put_skin(bench->ready.scene, skin); });
@@ -228,7 +228,7 @@ TEST(HoverHand, ASessionOfMovesPressesAndUndoReplaysToTheBit) {
       bench->ready.session->command(commands.back().second);
     }
     for (int n = 0; n < (presses ? 12 : 4); ++n) {
-      bench->picture(x, y, presses ? std::optional(MouseAim::Push{4e-3, 1}) : std::nullopt);
+      bench->picture(x, y, presses ? std::optional(mouse::MouseAim::Push{4e-3, 1}) : std::nullopt);
       for (int t = 0; t < kTicksPerPicture; ++t) {
         bench->tick();
         rows.push_back(bench->row);

@@ -1,4 +1,4 @@
-#include "window/shell/imgui_keys.h"
+#include "window/ui/imgui_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,8 @@
 #include "burr/workshop/recording.h"
 #include "io/dicom_writer.h"
 #include "window/import/series_page.h"
+#include "window/parts/sessions.h"
 #include "window/shell/pages.h"
-#include "window/start/sessions.h"
 #include "window/user.h"
 
 namespace burr::app {

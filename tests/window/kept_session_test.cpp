@@ -7,10 +7,10 @@
 #include <string>
 
 #include "burr/base/progress.h"
-#include "commands/work.h"
+#include "shared/make_ready.h"
+#include "shared/work.h"
 #include "support/folder.h"
-#include "window/mill/make_ready.h"
-#include "window/start/sessions.h"
+#include "window/parts/sessions.h"
 
 namespace burr::app {
 namespace {
@@ -88,7 +88,7 @@ TEST_F(Kept, ASessionThatIsContinuedGoesOnWhereItEnded) {
     session.command({tick::CommandKind::burr_kind, 1});
     session.command({tick::CommandKind::spindle_speed, 3000});
     session.command({tick::CommandKind::irrigation, 1});
-    MouseHand::Aim aim;
+    mouse::MouseHand::Aim aim;
     aim.world_from_tool = ready->scene.burr.world_from_tool;
     aim.world_from_tool.p = ready->scene.camera.target;  // on the surface: pressed in by a radius
     aim.pedal = 1;

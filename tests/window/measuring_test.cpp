@@ -1,5 +1,5 @@
 // Measuring at the window: the numbers against the points themselves, and the clicks end to end.
-#include "window/mill/measuring.h"
+#include "window/parts/measuring.h"
 
 #include <gtest/gtest.h>
 

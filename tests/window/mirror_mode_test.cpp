@@ -1,6 +1,6 @@
 // The mirror at the window: switched on by its key, seen, told, cut across, undone, and switched
 // off; and the words for where its plane is.
-#include "window/mill/mirror_mode.h"
+#include "window/parts/mirror_mode.h"
 
 #include <gtest/gtest.h>
 

@@ -14,11 +14,11 @@
 #include "burr/render/bone_scene.h"
 #include "burr/render/unseen.h"
 #include "burr/volume/distance_to.h"
+#include "shared/words.h"
 #include "user.h"
 #include "window/mill/orientation_cube.h"
 #include "window/mill/pinned_labels.h"
 #include "window/mill/structures.h"
-#include "window/shell/anatomy.h"
 
 namespace burr::app {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <string>
 
+#include "shared/words.h"
 #include "user.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

@@ -11,9 +11,9 @@
 #include "burr/rt/changed_bits.h"
 #include "burr/workshop/recording.h"
 #include "support/places.h"
-#include "window/mill/see_through.h"
 #include "window/mill/window.h"
-#include "window/start/sessions.h"
+#include "window/parts/see_through.h"
+#include "window/parts/sessions.h"
 #include "window/user.h"
 
 namespace burr::app {

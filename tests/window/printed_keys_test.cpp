@@ -1,6 +1,6 @@
 // Keys act by what is printed on them: what SDL sends on an English, German, French and Swedish
 // keyboard, and the key that a page sees.
-#include "window/shell/printed_keys.h"
+#include "window/ui/printed_keys.h"
 
 #include <gtest/gtest.h>
 

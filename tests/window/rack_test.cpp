@@ -9,17 +9,17 @@
 #include <random>
 #include <string>
 
+#include "burr/mouse/grip.h"
+#include "burr/mouse/mouse_aim.h"
 #include "burr/render/pick.h"
 #include "burr/render/tool_mesh.h"
 #include "burr/scenario/rack.h"
 #include "burr/sim/session.h"
-#include "commands/tool_options.h"
-#include "commands/work.h"
+#include "shared/make_ready.h"
+#include "shared/tool_options.h"
+#include "shared/work.h"
 #include "support/folder.h"
 #include "user.h"
-#include "window/hands/grip.h"
-#include "window/hands/mouse_aim.h"
-#include "window/mill/make_ready.h"
 #include "window/mill/rack_panel.h"
 #include "window/mill/side_panel.h"
 
@@ -41,7 +41,7 @@ TEST(Grip, TheHandleLeansFromTheNormalToTheSideOfTheHand) {
   const Vec3 out = (camera.backward() + 0.3 * camera.above()).normalized();
   for (const scenario::RackTool& tool : scenario::built_in_rack().all)
     for (const bool left : {false, true}) {
-      Grip grip;
+      mouse::Grip grip;
       grip.take(&tool);
       const math::Quat q = grip.turn(out, camera, left);
       const Vec3 handle = q * Vec3::UnitZ();
@@ -55,7 +55,7 @@ TEST(Grip, TheHandleLeansFromTheNormalToTheSideOfTheHand) {
 
 TEST(Grip, ABladeLiesFromLeftToRightUntilItIsTurned) {
   const render::Camera camera = from_above();
-  Grip grip;
+  mouse::Grip grip;
   grip.take(scenario::built_in_rack().find("sagittal-saw"));
   const Vec3 out = camera.backward();
   // the side of the hand is a little above the picture's right
@@ -71,7 +71,7 @@ TEST(Grip, ReachesAsFarAsTheSurfaceOfItsCuttingParts) {
   std::mt19937_64 random(kSeed);
   std::normal_distribution<double> any;
   for (const scenario::RackTool& tool : scenario::built_in_rack().all) {
-    Grip grip;
+    mouse::Grip grip;
     grip.take(&tool);
     const surface::Mesh mesh = render::mesh_of(tool.tool, tool::Role::cuts);
     // the mesh has chords in place of arcs; boxes and wedges are drawn with sharp corners
@@ -98,8 +98,8 @@ TEST(Grip, ReachesAsFarAsTheSurfaceOfItsCuttingParts) {
 // A block and the mouse's hand, without a window: pictures of 16 ticks.
 struct Bench {
   Ready ready;
-  Grip grip;
-  std::unique_ptr<MouseAim> aim;
+  mouse::Grip grip;
+  std::unique_ptr<mouse::MouseAim> aim;
   tick::TickRow row;
 
   explicit Bench(const std::string& tool) {
@@ -114,12 +114,12 @@ struct Bench {
     auto made = make_ready(options, std::move(*work), quiet);
     EXPECT_TRUE(made) << (made ? "" : made.error().text);
     ready = std::move(*made);
-    aim = std::make_unique<MouseAim>(ready.session->bone().grid().voxel);
+    aim = std::make_unique<mouse::MouseAim>(ready.session->bone().grid().voxel);
     const int number = ready.session->settings().servo.tool;
     grip.take(number < 0 ? nullptr : &ready.rack[static_cast<std::size_t>(number)]);
     aim->hold(&grip);
   }
-  void picture(double x, double y, const std::optional<MouseAim::Push>& push) {
+  void picture(double x, double y, const std::optional<mouse::MouseAim::Push>& push) {
     const render::Ray eye = render::ray_through(ready.scene.camera, x, y, 1280, 720);
     ready.hands.mouse->aim(aim->at(ready.scene, eye, push, false));
     for (int t = 0; t < 16; ++t) {
@@ -147,7 +147,7 @@ TEST_P(Rack, NothingPushesItWhileItHoversAndItCutsWhereItIsPressed) {
   // pressed: held for a second, as a drill is, then drawn to and fro, as a curette is
   for (int n = 0; n < 180; ++n)
     bench.picture(640 + (n < 60 ? 0 : 120 * std::sin(0.15 * n)),
-                  360 + (n < 60 ? 0 : 40 * std::sin(0.11 * n)), MouseAim::Push{2.5e-3, 1});
+                  360 + (n < 60 ? 0 : 40 * std::sin(0.11 * n)), mouse::MouseAim::Push{2.5e-3, 1});
   EXPECT_GT(bench.row.ledger.removed * 1e9, 0.01);
   EXPECT_GT(bench.most_force, 0.05);
   EXPECT_LT(bench.most_force, 8);

@@ -9,7 +9,7 @@
 #include "user.h"
 #include "window/mill/mill_keys.h"
 #include "window/mill/side_panel.h"
-#include "window/mill/toolbar.h"
+#include "window/parts/toolbar.h"
 
 namespace burr::app {
 namespace {

@@ -19,11 +19,11 @@
 #include "burr/record/player.h"
 #include "support/places.h"
 #include "user.h"
-#include "window/mill/measuring.h"
+#include "window/parts/measuring.h"
+#include "window/parts/sessions.h"
 #include "window/replay/replay_bar.h"
 #include "window/replay/replay_page.h"
 #include "window/shell/pages.h"
-#include "window/start/sessions.h"
 
 namespace burr::app {
 namespace {

@@ -19,17 +19,18 @@
 #include <vector>
 
 #include "burr/record/player.h"
+#include "burr/report/marked.h"
+#include "burr/report/questions.h"
 #include "burr/school/pending.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
-#include "report/marked.h"
-#include "report/questions.h"
 #include "support/places.h"
 #include "user.h"
+#include "window/mill/mill_keys.h"
+#include "window/parts/sessions.h"
 #include "window/review/enter_session.h"
 #include "window/review/review_page.h"
 #include "window/review/self_marks_page.h"
-#include "window/start/sessions.h"
 #include "window/start/start_page.h"
 
 namespace burr::app {
@@ -138,7 +139,7 @@ say = "Clear the groove."
     void report(double fraction, std::string_view /*stage*/) override { all.push_back(fraction); }
     [[nodiscard]] bool cancelled() const override { return false; }
   } shares;
-  const auto again = marked(kept()[0].file.string(), kept()[0].rubric, {}, shares);
+  const auto again = report::marked(kept()[0].file.string(), kept()[0].rubric, {}, shares);
   ASSERT_TRUE(again) << again.error().text;
   ASSERT_GT(shares.all.size(), 4U);
   EXPECT_TRUE(std::is_sorted(shares.all.begin(), shares.all.end()));
@@ -148,7 +149,7 @@ say = "Clear the groove."
 
 // The pieces of bone that were moved stand at the left, above the advice.
 TEST_F(ReviewWindow, ShowsThePiecesThatWereMoved) {
-  Report report;
+  report::Report report;
   report.nothing_next = "nothing";
   const auto written = [&] {  // light pixels of the left column
     ReviewState state;
@@ -267,7 +268,7 @@ TEST_F(ReviewWindow, AScanOfOnesOwnIsNotInTheModeOfTheCaseBefore) {
   const auto mode_of = [&](const fs::path& file, record::Mode mode) {
     record::Identity identity;
     identity.mode = mode;
-    StartPage page(*desk_, {}, identity);
+    StartPage page(*desk_, mill_help_rows, {}, identity);
     drop(file);
     auto choice = page.ask("", 20);
     EXPECT_TRUE(choice && choice->open);
@@ -360,14 +361,14 @@ TEST(Questions, EveryBuiltInCaseHasSomeAndOtherCasesNone) {
   for (const std::string& name : scenario::built_in_cases()) {
     const auto work = scenario::read_case(name);
     ASSERT_TRUE(work) << work.error().text;
-    const auto parts = questions_on(*work);
+    const auto parts = report::questions_on(*work);
     ASSERT_FALSE(parts.empty()) << name;
-    for (const QuestionPart& part : parts)
-      for (const Question& one : part.items) EXPECT_FALSE(one.text.empty()) << one.id;
+    for (const report::QuestionPart& part : parts)
+      for (const report::Question& one : part.items) EXPECT_FALSE(one.text.empty()) << one.id;
   }
   scenario::Case other;
   other.name = "no-such-case";
-  EXPECT_TRUE(questions_on(other).empty());
+  EXPECT_TRUE(report::questions_on(other).empty());
 }
 
 }  // namespace

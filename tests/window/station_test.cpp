@@ -6,18 +6,18 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "burr/http/client.h"
+#include "burr/net/client.h"
+#include "burr/net/guard.h"
+#include "burr/net/http_server.h"
 #include "burr/render/picture.h"
-#include "burr/serve/guard.h"
-#include "burr/serve/http_server.h"
 #include "serve/stations.h"
 #include "window/mill/instructor_notes.h"
 
 namespace burr::app {
 namespace {
 
-using serve::Request;
-using serve::Response;
+using net::Request;
+using net::Response;
 using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
@@ -26,7 +26,7 @@ const std::string kJpeg = "\xFF\xD8\xFF picture";
 Request request(const std::string& method, const std::string& target, std::string body = {}) {
   Request out;
   out.method = method;
-  EXPECT_TRUE(serve::read_target(target, out)) << target;
+  EXPECT_TRUE(net::read_target(target, out)) << target;
   out.body = std::move(body);
   return out;
 }
@@ -137,10 +137,10 @@ TEST(StationLink, AnAddressThatCannotBeOneIsRefused) {
 class Server {
  public:
   explicit Server(unsigned short port = 0) {
-    serve::Door door;
+    net::Door door;
     door.port = port;
-    auto opened = serve::HttpServer::open(door, [this](const Request& asked) {
-      if (auto refusal = serve::refused(asked, guard_)) return *refusal;
+    auto opened = net::HttpServer::open(door, [this](const Request& asked) {
+      if (auto refusal = net::refused(asked, guard_)) return *refusal;
       return stations_.answer(asked, Stations::Clock::now());
     });
     EXPECT_TRUE(opened) << opened.error().text;
@@ -160,13 +160,13 @@ class Server {
   // As the page asks. Only while the link's thread may ask too: both go through the server's one thread.
   [[nodiscard]] Response page(const std::string& method, const std::string& target,
                               const Json& body = {}) {
-    http::Question question;
+    net::Question question;
     question.method = method;
     question.url = url() + target;
     question.fields = {{"Authorization", "Bearer " + guard_.token},
                        {"Content-Type", "application/json"}};
     if (!body.is_null()) question.body = body.dump();
-    const auto answer = http::ask(question);
+    const auto answer = net::ask(question);
     Response out;
     EXPECT_TRUE(answer) << answer.error().text;
     if (!answer) return out;
@@ -177,8 +177,8 @@ class Server {
 
  private:
   Stations stations_;
-  serve::Guard guard_;
-  std::unique_ptr<serve::HttpServer> server_;
+  net::Guard guard_;
+  std::unique_ptr<net::HttpServer> server_;
   std::thread thread_;
 };
 
@@ -209,7 +209,7 @@ TEST(StationLink, PicturesGoOutWhileSomebodyLooksAndWordsComeBack) {
   }));
   EXPECT_EQ(name, "station å \"4\"");
   EXPECT_FALSE((*link)->wants_picture()) << "nobody looks";
-  const std::string target = "/api/live/picture?after=0&station=" + http::escaped(name);
+  const std::string target = "/api/live/picture?after=0&station=" + net::escaped(name);
   ASSERT_TRUE(soon([&] {
     static_cast<void>(server.page("GET", target));
     return (*link)->wants_picture();

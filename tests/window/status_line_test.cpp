@@ -1,5 +1,5 @@
 // An answer to a key and a force that was let go in the same moment are both to be read.
-#include "window/shell/status_line.h"
+#include "window/ui/status_line.h"
 
 #include <gtest/gtest.h>
 

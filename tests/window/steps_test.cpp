@@ -1,5 +1,5 @@
 // The steps of a case, and the sentence about technique: no window is needed.
-#include "window/mill/steps.h"
+#include "burr/guidance/steps.h"
 
 #include <gtest/gtest.h>
 
@@ -10,34 +10,34 @@
 #include <utility>
 #include <vector>
 
+#include "burr/guidance/injury.h"
+#include "burr/guidance/step_watch.h"
+#include "burr/guidance/technique.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/scenario/open_lesson.h"
-#include "window/mill/injury.h"
 #include "window/mill/step_light.h"
-#include "window/mill/step_watch.h"
-#include "window/mill/technique.h"
 
 namespace burr::app {
 namespace {
 
 using record::CourseKind;
 
-Steps steps_named(const std::vector<std::string>& ids) {
+guidance::Steps steps_named(const std::vector<std::string>& ids) {
   std::vector<scenario::Step> all;
   for (const std::string& id : ids) all.emplace_back().id = id;
-  return Steps(std::move(all));
+  return guidance::Steps(std::move(all));
 }
 
-std::string words_of(const Steps::Events& events) {
+std::string words_of(const guidance::Steps::Events& events) {
   std::string text;
-  for (const Steps::Event& one : events)
+  for (const guidance::Steps::Event& one : events)
     text += (text.empty() ? "" : ", ") + std::string(record::word_of(one.kind)) + " " + one.what;
   return text;
 }
 
 TEST(Steps, OneAfterAnother) {
-  Steps steps = steps_named({"a", "b"});
+  guidance::Steps steps = steps_named({"a", "b"});
   EXPECT_EQ(words_of(steps.begin()), "step_begun a");
   EXPECT_EQ(words_of(steps.declare_done()), "step_done a, step_begun b");
   EXPECT_EQ(steps.now()->id, "b");
@@ -48,7 +48,7 @@ TEST(Steps, OneAfterAnother) {
 }
 
 TEST(Steps, AreReopenedAndChosen) {
-  Steps steps = steps_named({"a", "b", "c"});
+  guidance::Steps steps = steps_named({"a", "b", "c"});
   EXPECT_EQ(words_of(steps.begin()), "step_begun a");
   EXPECT_EQ(words_of(steps.choose(2)), "step_begun c");
   EXPECT_EQ(words_of(steps.choose(0)), "") << "it had begun";
@@ -65,14 +65,14 @@ TEST(Steps, AreReopenedAndChosen) {
 }
 
 TEST(Steps, AStepWhoseIdMayNotBeRecordedHasItsNumber) {
-  Steps steps = steps_named({"a", "/home/anna", std::string(200, 'x')});
+  guidance::Steps steps = steps_named({"a", "/home/anna", std::string(200, 'x')});
   EXPECT_EQ(steps.id(0), "a");
   EXPECT_EQ(steps.id(1), "step 2");
   EXPECT_EQ(steps.id(2), "step 3");
 }
 
 TEST(Steps, ACaseMayHaveNone) {
-  Steps steps;
+  guidance::Steps steps;
   EXPECT_TRUE(steps.begin().empty());
   EXPECT_TRUE(steps.declare_done().empty());
   EXPECT_EQ(steps.now(), nullptr);
@@ -124,13 +124,13 @@ scenario::Lesson lesson() {
 
 TEST(Steps, PlacesAndRegionsHaveRings) {
   const scenario::Lesson all = lesson();
-  const std::vector<Ring> pit = {
+  const std::vector<guidance::Ring> pit = {
       {{0, 0, 8e-3}, 4e-3, "pit"}, {{0, 0, 10e-3}, 2e-3, "pit"}, {{0, 0, 20e-3}, 2e-3, ""}};
-  std::vector<Ring> shown = rings_of(all.steps[0], all);
+  std::vector<guidance::Ring> shown = guidance::rings_of(all.steps[0], all);
   ASSERT_EQ(shown.size(), 1 + pit.size());
   EXPECT_EQ(shown[0].name, "entry");
   EXPECT_LT((shown[0].at - math::Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-12);
-  const std::vector<Ring> own = rings_of(all.steps[1], all);
+  const std::vector<guidance::Ring> own = guidance::rings_of(all.steps[1], all);
   ASSERT_EQ(own.size(), pit.size()) << "a step that shows nothing has the rings of its region";
   for (std::size_t n = 0; n < pit.size(); ++n) {
     EXPECT_LT((own[n].at - pit[n].at).norm(), 1e-12);
@@ -161,7 +161,7 @@ TEST(Steps, TheWatchFindsThatAMeasureIsReached) {
   auto bone =
       phantom::bone_from_distance(phantom::cube_grid(24e-3, 48), {}, phantom::ball(10e-3), 8);
   const scenario::Lesson all = lesson();
-  StepWatch watch(*bone, all);
+  guidance::StepWatch watch(*bone, all);
   watch.look(0);
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_FALSE(watch.take()) << "nothing is cut yet";
@@ -182,7 +182,7 @@ TEST(Steps, TheWatchFindsThatAMeasureIsReached) {
 
 TEST(Steps, AnInjuryHasOneMessageUntilTheBurrIsOutAgain) {
   constexpr double kVoxel = 0.4e-3;
-  InjuryWatch watch;
+  guidance::InjuryWatch watch;
   EXPECT_FALSE(watch.look("dura", 1e-3, true, kVoxel));
   EXPECT_FALSE(watch.look("dura", -0.1e-3, true, kVoxel)) << "within the error of the distance";
   EXPECT_FALSE(watch.look("dura", -1e-3, false, kVoxel)) << "the burr stands still";
@@ -202,11 +202,11 @@ TEST(Steps, AnInjuryHasOneMessageUntilTheBurrIsOutAgain) {
 
 // ---- the sentence about technique
 
-using Cue = Technique::Cue;
+using Cue = guidance::Technique::Cue;
 
 // Cuts from one time to another, every 20 ms; returns the times at which a sentence appeared [s].
-std::vector<double> said(Technique& technique, Technique::Moment moment, double from, double to,
-                         const scenario::Step* step = nullptr) {
+std::vector<double> said(guidance::Technique& technique, guidance::Technique::Moment moment,
+                         double from, double to, const scenario::Step* step = nullptr) {
   std::vector<double> times;
   for (int n = 0; from + 0.02 * n < to; ++n) {
     moment.t = from + 0.02 * n;
@@ -216,40 +216,40 @@ std::vector<double> said(Technique& technique, Technique::Moment moment, double 
   return times;
 }
 
-Technique::Moment pressing_hard() {
-  Technique::Moment moment;
+guidance::Technique::Moment pressing_hard() {
+  guidance::Technique::Moment moment;
   moment.cutting = true;
-  moment.force = 2 * Technique::kForce;
+  moment.force = 2 * guidance::Technique::kForce;
   moment.diameter = 5e-3;
   return moment;
 }
 
 TEST(Technique, SpeaksAfterTwoSecondsOutOfBandAndOnceInTwentySeconds) {
-  Technique technique;
+  guidance::Technique technique;
   const std::vector<double> times = said(technique, pressing_hard(), 0, 70);
   ASSERT_EQ(times.size(), 4U);
   EXPECT_NEAR(times[0], 2, 0.03);
   for (std::size_t n = 1; n < times.size(); ++n)
-    EXPECT_GE(times[n] - times[n - 1], Technique::kBetween - 1e-9);
+    EXPECT_GE(times[n] - times[n - 1], guidance::Technique::kBetween - 1e-9);
 }
 
 TEST(Technique, SaysNothingAboutAShortLapse) {
-  Technique technique;
+  guidance::Technique technique;
   for (int n = 0; n < 30; ++n) {
     EXPECT_TRUE(said(technique, pressing_hard(), 3 * n, 3 * n + 1.9).empty());
-    Technique::Moment gentle = pressing_hard();
+    guidance::Technique::Moment gentle = pressing_hard();
     gentle.force = 1;
     EXPECT_TRUE(said(technique, gentle, 3 * n + 1.9, 3 * n + 3).empty());
   }
 }
 
 TEST(Technique, SaysNothingWithinAMillimetreAndTakesItsSentenceAway) {
-  Technique technique;
-  Technique::Moment near = pressing_hard();
+  guidance::Technique technique;
+  guidance::Technique::Moment near = pressing_hard();
   near.nearest = 0.99e-3;
   EXPECT_TRUE(said(technique, near, 0, 100).empty());
   EXPECT_EQ(said(technique, pressing_hard(), 100, 103).size(), 1U);
-  Technique::Moment moment = pressing_hard();
+  guidance::Technique::Moment moment = pressing_hard();
   moment.t = 103.02;
   EXPECT_EQ(technique.look(moment, nullptr), Cue::gentler);
   moment.nearest = 0.5e-3;
@@ -258,8 +258,8 @@ TEST(Technique, SaysNothingWithinAMillimetreAndTakesItsSentenceAway) {
 }
 
 TEST(Technique, SaysNothingWhileNothingIsCut) {
-  Technique technique;
-  Technique::Moment moment = pressing_hard();
+  guidance::Technique technique;
+  guidance::Technique::Moment moment = pressing_hard();
   moment.cutting = false;
   EXPECT_TRUE(said(technique, moment, 0, 60).empty());
 }
@@ -269,8 +269,8 @@ TEST(Technique, TheToolOfTheStepIsABand) {
   step.kind = tool::BurrKind::diamond;
   step.diameter = {2e-3, 4e-3};
   const auto cue = [&step](tool::BurrKind kind, double diameter, const char* tool = "") {
-    Technique technique;
-    Technique::Moment moment;
+    guidance::Technique technique;
+    guidance::Technique::Moment moment;
     moment.tool = tool;
     moment.cutting = true;
     moment.force = 1;

@@ -3,7 +3,7 @@
 #include "burr/scenario/open_lesson.h"
 #include "user.h"
 #include "window/mill/mill_keys.h"
-#include "window/shell/help.h"
+#include "window/ui/help.h"
 
 namespace burr::app {
 namespace {

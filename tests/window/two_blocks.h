@@ -8,8 +8,8 @@
 
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
-#include "commands/work.h"
-#include "window/mill/make_ready.h"
+#include "shared/make_ready.h"
+#include "shared/work.h"
 
 namespace burr::app {
 

@@ -1,5 +1,5 @@
 // Tab completes a path as in a shell.
-#include "window/shell/typed_path.h"
+#include "window/ui/typed_path.h"
 #include "support/folder.h"
 
 #include <gtest/gtest.h>

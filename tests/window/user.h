@@ -20,13 +20,13 @@
 #include <utility>
 #include <vector>
 
-#include "commands/work.h"
+#include "shared/make_ready.h"
+#include "shared/words.h"
+#include "shared/work.h"
 #include "support/data.h"
 #include "support/folder.h"
-#include "window/mill/make_ready.h"
 #include "window/mill/window.h"
 #include "window/shell/pages.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 

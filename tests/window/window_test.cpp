@@ -167,8 +167,8 @@ TEST(WholeProgram, MillsDrawsRecordsUndoesAndResetsAllAtOnce) {
   ASSERT_TRUE(place) << place.error().text;
   math::Pose above;
   above.p = place->at - 10e-3 * place->into;
-  auto owned = std::make_unique<MouseHand>(above);
-  MouseHand& hand = *owned;
+  auto owned = std::make_unique<mouse::MouseHand>(above);
+  mouse::MouseHand& hand = *owned;
   NoProgress quiet;
   auto made = sim::Session::make(std::move(bone), std::move(owned), settings, quiet);
   ASSERT_TRUE(made) << made.error().text;

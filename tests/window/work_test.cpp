@@ -1,5 +1,5 @@
 // What is milled, and with what, when a person asks for a bone.
-#include "window/mill/make_ready.h"
+#include "shared/make_ready.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "burr/base/progress.h"
-#include "commands/work.h"
+#include "shared/work.h"
 
 namespace burr::app {
 namespace {

@@ -20,24 +20,24 @@
 #include <vector>
 
 #include "burr/base/progress.h"
+#include "burr/guidance/step_rings.h"
+#include "burr/guidance/steps.h"
+#include "burr/guidance/suits.h"
 #include "burr/phantom/build.h"
 #include "burr/record/identity.h"
+#include "burr/report/make_report.h"
+#include "burr/report/questions.h"
+#include "burr/report/report_page.h"
+#include "burr/report/score_words.h"
+#include "burr/report/scored.h"
+#include "burr/report/self_marks.h"
 #include "burr/scenario/case.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/step_done.h"
 #include "burr/volume/copy_of_bone.h"
+#include "burr/words/anatomy.h"
+#include "burr/words/words.h"
 #include "burr/workshop/allowed.h"
-#include "commands/score_words.h"
-#include "report/make_report.h"
-#include "report/questions.h"
-#include "report/report_page.h"
-#include "report/scored.h"
-#include "report/self_marks.h"
-#include "window/mill/step_rings.h"
-#include "window/mill/steps.h"
-#include "window/mill/suits.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
 #include "work_of_page.h"
 
 namespace {
@@ -53,11 +53,11 @@ struct Course {
   scenario::Lesson lesson;
   record::Mode mode = record::Mode::free;
   workshop::Allowed allowed;
-  app::Steps steps;
+  guidance::Steps steps;
   std::unique_ptr<volume::Bone> before, now;
-  std::optional<app::Scored> scored;
-  app::ReportSettings settings;
-  std::optional<app::Report> report;
+  std::optional<report::Scored> scored;
+  report::ReportSettings settings;
+  std::optional<report::Report> report;
 };
 
 std::unique_ptr<Course> course;
@@ -73,14 +73,14 @@ bool failed(const Error& error) {
   return false;
 }
 
-ordered_json json_of(const app::Steps::Events& events) {
+ordered_json json_of(const guidance::Steps::Events& events) {
   ordered_json all = ordered_json::array();
-  for (const app::Steps::Event& one : events)
+  for (const guidance::Steps::Event& one : events)
     all.push_back({{"kind", record::word_of(one.kind)}, {"what", one.what}, {"value", one.value}});
   return all;
 }
 
-ordered_json json_of(const app::ReportMark& mark) {
+ordered_json json_of(const report::ReportMark& mark) {
   constexpr const char* kTones[] = {"good", "bad", "open", "none"};
   return {{"word", mark.word}, {"tone", kTones[static_cast<std::size_t>(mark.tone)]}};
 }
@@ -92,12 +92,12 @@ bool open_case(const std::string& mode, double voxel_mm) {
   made->work = std::move(*work);
   const auto rubric = scoring::read_rubric(made->work.name);
   if (!rubric) return failed(rubric.error());
-  auto lesson = app::lesson_for(made->work, *rubric);
+  auto lesson = report::lesson_for(made->work, *rubric);
   if (!lesson) return failed(lesson.error());
   made->lesson = std::move(*lesson);
   made->mode = record::mode_of(mode).value_or(record::Mode::free);
   made->allowed = workshop::allowed_in(made->mode, made->lesson.feedback, true);
-  made->steps = app::Steps(made->lesson.steps);
+  made->steps = guidance::Steps(made->lesson.steps);
   const double voxel = 1e-3 * voxel_mm;
   const phantom::Phantom bone = web::phantom_of_page(voxel);
   NoProgress quiet;
@@ -107,7 +107,7 @@ bool open_case(const std::string& mode, double voxel_mm) {
   made->before = std::move(*before);
   made->now = volume::copy_of(*made->before);
   course = std::move(made);
-  app::take_titles_of(&course->lesson);
+  words::take_titles_of(&course->lesson);
   return true;
 }
 
@@ -117,9 +117,9 @@ bool steps_offered() {
 
 // What the panel of the window says about the current step (window/mill/steps_panel.cpp).
 ordered_json json_of_steps() {
-  const app::Steps& steps = course->steps;
+  const guidance::Steps& steps = course->steps;
   const auto title_of = [](const scenario::Step& step) {
-    const std::string& title = step.title.in(app::spoken().code);
+    const std::string& title = step.title.in(words::spoken().code);
     return title.empty() ? step.id : title;
   };
   ordered_json out;
@@ -134,13 +134,14 @@ ordered_json json_of_steps() {
   if (const scenario::Step* now = steps.now(); now != nullptr) {
     ordered_json& one = out["now"];
     one["id"] = now->id;
-    one["count"] = app::say(app::Word::steps_count, *steps.current() + 1, steps.size());
+    one["count"] = words::say(words::Word::steps_count, *steps.current() + 1, steps.size());
     one["title"] = title_of(*now);
-    one["say"] = now->say.in(app::spoken().code);
-    const std::string tool = app::suits(*now);
-    one["tool"] = tool.empty() ? "" : app::say(app::Word::steps_tool, tool);
-    one["spare"] =
-        now->spare.empty() ? "" : app::say(app::Word::task_spare, app::anatomy_list(now->spare));
+    one["say"] = now->say.in(words::spoken().code);
+    const std::string tool = guidance::suits(*now);
+    one["tool"] = tool.empty() ? "" : words::say(words::Word::steps_tool, tool);
+    one["spare"] = now->spare.empty()
+                       ? ""
+                       : words::say(words::Word::task_spare, words::anatomy_list(now->spare));
     one["measured"] = now->done.has_value() && !steps.was_reopened(*steps.current());
   }
   out["rows"] = ordered_json::array();
@@ -152,7 +153,7 @@ ordered_json json_of_steps() {
   return out;
 }
 
-ordered_json json_of(const app::ReportItem& item) {
+ordered_json json_of(const report::ReportItem& item) {
   ordered_json row;
   row["id"] = item.id;
   row["text"] = item.text;
@@ -165,7 +166,7 @@ ordered_json json_of(const app::ReportItem& item) {
   return row;
 }
 
-ordered_json json_of(const app::Report& report) {
+ordered_json json_of(const report::Report& report) {
   ordered_json out;
   out["title"] = report.title;
   out["unfinished"] = report.unfinished;
@@ -176,21 +177,21 @@ ordered_json json_of(const app::Report& report) {
   out["head"] = report.head;
   out["gates"] = ordered_json::array();
   std::size_t held = 0;
-  for (const app::ReportGate& gate : report.gates) {
-    held += gate.mark.tone == app::Tone::good ? 1 : 0;
+  for (const report::ReportGate& gate : report.gates) {
+    held += gate.mark.tone == report::Tone::good ? 1 : 0;
     out["gates"].push_back(
         {{"text", gate.text}, {"when", gate.when}, {"mark", json_of(gate.mark)}});
   }
-  out["held"] = app::say(app::Word::review_gates, held, report.gates.size());
+  out["held"] = words::say(words::Word::review_gates, held, report.gates.size());
   out["parts"] = ordered_json::array();
-  for (const app::ReportPart& part : report.parts) {
+  for (const report::ReportPart& part : report.parts) {
     ordered_json one = {{"title", part.title}, {"met", part.met}, {"note", part.note}};
     one["items"] = ordered_json::array();
-    for (const app::ReportItem& item : part.items) one["items"].push_back(json_of(item));
+    for (const report::ReportItem& item : part.items) one["items"].push_back(json_of(item));
     out["parts"].push_back(std::move(one));
   }
   out["next"] = ordered_json::array();
-  for (const app::ReportAdvice& advice : report.next)
+  for (const report::ReportAdvice& advice : report.next)
     out["next"].push_back({{"say", advice.say}, {"why", advice.why}});
   out["nothing_next"] = report.nothing_next;
   out["small"] = report.small;
@@ -200,20 +201,20 @@ ordered_json json_of(const app::Report& report) {
 // The report in the language that is spoken now.
 bool make_report() {
   NoProgress quiet;
-  auto report = app::report_on(*course->scored, course->settings, quiet);
+  auto report = report::report_on(*course->scored, course->settings, quiet);
   if (!report) return failed(report.error());
   course->report = std::move(*report);
   return true;
 }
 
 bool mark_recording() {
-  auto judged = app::judged_by(kFile, "");
+  auto judged = report::judged_by(kFile, "");
   if (!judged) return failed(judged.error());
   course->settings = {};
   course->settings.most_pictures = 0;
-  course->settings.self = app::recorded_self_marks(*judged->player, judged->rubric);
+  course->settings.self = report::recorded_self_marks(*judged->player, judged->rubric);
   NoProgress quiet;
-  auto made = app::scored(std::move(*judged), {}, quiet);
+  auto made = report::scored(std::move(*judged), {}, quiet);
   if (!made) return failed(made.error());
   course->scored = std::move(*made);
   return make_report();
@@ -231,13 +232,13 @@ EMSCRIPTEN_KEEPALIVE int score_open(const char* mode, double voxel_mm) {
   return open_case(mode, voxel_mm) ? 1 : 0;
 }
 
-EMSCRIPTEN_KEEPALIVE void score_speak(const char* language) { app::speak(language); }
+EMSCRIPTEN_KEEPALIVE void score_speak(const char* language) { words::speak(language); }
 
 // The texts of the window that begin with one of these: {key: text}.
 EMSCRIPTEN_KEEPALIVE const char* score_words() {
   constexpr const char* kKeys[] = {
 #define BURR_WORD(key) #key,
-#include "word_keys.h"
+#include "burr/words/word_keys.h"
 #undef BURR_WORD
   };
   constexpr std::string_view kWanted[] = {"steps_",  "done_",    "self_",      "review_",
@@ -247,7 +248,7 @@ EMSCRIPTEN_KEEPALIVE const char* score_words() {
     if (std::any_of(std::begin(kWanted), std::end(kWanted), [&](std::string_view start) {
           return std::string_view(kKeys[n]).starts_with(start);
         }))
-      out[kKeys[n]] = app::word(static_cast<app::Word>(n));
+      out[kKeys[n]] = words::word(static_cast<words::Word>(n));
   return told(out);
 }
 
@@ -255,15 +256,15 @@ EMSCRIPTEN_KEEPALIVE const char* score_steps() { return told(json_of_steps()); }
 
 // These three give what is to be written into the recording.
 EMSCRIPTEN_KEEPALIVE const char* score_begin() {
-  return told(json_of(steps_offered() ? course->steps.begin() : app::Steps::Events{}));
+  return told(json_of(steps_offered() ? course->steps.begin() : guidance::Steps::Events{}));
 }
 EMSCRIPTEN_KEEPALIVE const char* score_done(int measured) {
-  return told(
-      json_of(steps_offered() ? course->steps.declare_done(measured != 0) : app::Steps::Events{}));
+  return told(json_of(steps_offered() ? course->steps.declare_done(measured != 0)
+                                      : guidance::Steps::Events{}));
 }
 EMSCRIPTEN_KEEPALIVE const char* score_choose(int n) {
   return told(json_of(steps_offered() ? course->steps.choose(static_cast<std::size_t>(n))
-                                      : app::Steps::Events{}));
+                                      : guidance::Steps::Events{}));
 }
 
 // What the current step is about, to be lit: {step, rings: [{at [m], radius [m], name}], tissues, colour}; null: nothing may be.
@@ -272,12 +273,12 @@ EMSCRIPTEN_KEEPALIVE const char* score_light() {
   if (now == nullptr || !course->allowed.target) return told(nullptr);
   ordered_json out = {{"step", course->steps.id(*course->steps.current())}};
   out["rings"] = ordered_json::array();
-  for (const app::Ring& ring : app::rings_of(*now, course->lesson))
+  for (const guidance::Ring& ring : guidance::rings_of(*now, course->lesson))
     out["rings"].push_back({{"at", {ring.at.x(), ring.at.y(), ring.at.z()}},
                             {"radius", ring.radius},
-                            {"name", ring.name.empty() ? "" : app::place_name(ring.name)}});
-  out["tissues"] = app::lit_tissues(*now, course->lesson, course->now->tissues());
-  out["colour"] = app::kLitColour;
+                            {"name", ring.name.empty() ? "" : words::place_name(ring.name)}});
+  out["tissues"] = guidance::lit_tissues(*now, course->lesson, course->now->tissues());
+  out["colour"] = guidance::kLitColour;
   return told(out);
 }
 
@@ -308,9 +309,9 @@ EMSCRIPTEN_KEEPALIVE int score_look() {
 
 EMSCRIPTEN_KEEPALIVE const char* score_questions() {
   ordered_json out = ordered_json::array();
-  for (const app::QuestionPart& part : app::questions_on(course->work)) {
+  for (const report::QuestionPart& part : report::questions_on(course->work)) {
     ordered_json one = {{"title", part.title}, {"items", ordered_json::array()}};
-    for (const app::Question& item : part.items)
+    for (const report::Question& item : part.items)
       one["items"].push_back({{"id", item.id}, {"text", item.text}, {"gate", item.gate}});
     out.push_back(std::move(one));
   }
@@ -325,7 +326,8 @@ EMSCRIPTEN_KEEPALIVE const char* score_marks() {
   if (!make_report()) return nullptr;
   ordered_json out;
   out["report"] = json_of(*course->report);
-  out["score"] = app::score_json(course->scored->judged.rubric, course->scored->score);
+  out["score"] =
+      ordered_json::parse(report::score_json(course->scored->judged.rubric, course->scored->score));
   return told(out);
 }
 
@@ -333,14 +335,14 @@ EMSCRIPTEN_KEEPALIVE const char* score_marks() {
 EMSCRIPTEN_KEEPALIVE const char* score_page(const char* png, int bytes, int width, int height,
                                             const char* caption) {
   if (!make_report()) return nullptr;
-  app::Report& report = *course->report;
+  report::Report& report = *course->report;
   if (bytes > 0) {
     report.sides_legend.clear();  // the picture is in the bone's own colours
-    app::ReportSides& side = report.sides.emplace_back();
+    report::ReportSides& side = report.sides.emplace_back();
     side.pictures.push_back(
         {std::string(png, static_cast<std::size_t>(bytes)), caption, width, height});
   }
-  text = app::page_of(report);
+  text = report::page_of(report);
   return text.c_str();
 }
 

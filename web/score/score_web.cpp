@@ -1,6 +1,6 @@
 // In place of sources that a page does not have: scans from files, and pictures that OpenGL draws.
+#include "burr/report/report_pictures.h"
 #include "burr/workshop/recording.h"
-#include "report/report_pictures.h"
 
 namespace burr::workshop {
 
@@ -21,7 +21,7 @@ Renderer::~Renderer() = default;
 
 }  // namespace burr::render
 
-namespace burr::app {
+namespace burr::report {
 
 // No picture is asked for here (ReportSettings::most_pictures is 0): the page brings its own.
 Result<std::unique_ptr<ReportArtist>> ReportArtist::make(Scored& /*scored*/,
@@ -36,4 +36,4 @@ Result<ReportArtist::Pictures> ReportArtist::evidence(std::span<const std::size_
   return error("a page draws no pictures for a report");
 }
 
-}  // namespace burr::app
+}  // namespace burr::report

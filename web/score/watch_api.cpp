@@ -17,22 +17,22 @@
 #include <utility>
 
 #include "burr/base/progress.h"
+#include "burr/guidance/injury.h"
+#include "burr/guidance/suits.h"
+#include "burr/guidance/technique.h"
 #include "burr/phantom/build.h"
 #include "burr/record/course.h"
 #include "burr/record/identity.h"
 #include "burr/record/private_text.h"
+#include "burr/report/scored.h"
 #include "burr/scenario/case.h"
 #include "burr/scoring/rubric.h"
 #include "burr/tick/rows.h"
+#include "burr/words/anatomy.h"
+#include "burr/words/words.h"
 #include "burr/workshop/allowed.h"
 #include "burr/workshop/spared.h"
 #include "burr/workshop/spared_distance.h"
-#include "report/scored.h"
-#include "window/mill/injury.h"
-#include "window/mill/suits.h"
-#include "window/mill/technique.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
 #include "work_of_page.h"
 
 namespace {
@@ -49,8 +49,8 @@ struct Watch {
   workshop::SparedDistance spared;
   double voxel = 0;  // [m]
   const scenario::Step* step = nullptr;
-  app::InjuryWatch injury;
-  app::Technique technique;
+  guidance::InjuryWatch injury;
+  guidance::Technique technique;
   double removed_before = 0;
   std::string near;  // the structure that the user is warned of; empty: none
 };
@@ -73,7 +73,7 @@ bool open_watch(const std::string& mode, double voxel_mm) {
   if (!work) return refused(work.error());
   const auto rubric = scoring::read_rubric(work->name);
   if (!rubric) return refused(rubric.error());
-  auto lesson = app::lesson_for(*work, *rubric);
+  auto lesson = report::lesson_for(*work, *rubric);
   if (!lesson) return refused(lesson.error());
   auto made = std::make_unique<Watch>();
   made->lesson = std::move(*lesson);
@@ -90,7 +90,7 @@ bool open_watch(const std::string& mode, double voxel_mm) {
   if (!spared) return refused(spared.error());
   made->spared = std::move(*spared);
   watch = std::move(made);
-  app::take_titles_of(&watch->lesson);
+  words::take_titles_of(&watch->lesson);
   return true;
 }
 
@@ -104,7 +104,7 @@ ordered_json event(record::CourseKind kind, const char* what, const std::string&
 std::string advice(Watch& w, const std::optional<workshop::SparedDistance::Near>& nearest,
                    ordered_json& events) {
   if (!w.allowed.technique) return {};
-  app::Technique::Moment now;
+  guidance::Technique::Moment now;
   now.t = static_cast<double>(newest.tick) / web::kRate;
   now.cutting = newest.contact.touching && newest.spindle_rad_s != 0 &&
                 newest.ledger.removed > std::exchange(w.removed_before, newest.ledger.removed);
@@ -115,13 +115,15 @@ std::string advice(Watch& w, const std::optional<workshop::SparedDistance::Near>
     now.tool = w.step->tool;
     if (w.step->kind) now.kind = *w.step->kind;
   }
-  using Cue = app::Technique::Cue;
+  using Cue = guidance::Technique::Cue;
   const Cue cue = w.technique.look(now, w.step);
   if (w.technique.fresh())
-    events.push_back(event(record::CourseKind::help_shown, "technique", app::Technique::name(cue)));
-  if (cue == Cue::gentler) return app::word(app::Word::cue_gentler);
-  return cue != Cue::none && w.step != nullptr ? app::say(app::Word::cue_tool, app::suits(*w.step))
-                                               : std::string();
+    events.push_back(
+        event(record::CourseKind::help_shown, "technique", guidance::Technique::name(cue)));
+  if (cue == Cue::gentler) return words::word(words::Word::cue_gentler);
+  return cue != Cue::none && w.step != nullptr
+             ? words::say(words::Word::cue_tool, guidance::suits(*w.step))
+             : std::string();
 }
 
 // As Mill::look_at_injury(): what is said when the burr is stopped.
@@ -136,7 +138,7 @@ std::string stop(Watch& w, const std::optional<workshop::SparedDistance::Near>& 
     w.injury.nothing_near();
   if (!begins || w.allowed.injury != workshop::Injury::stop) return {};
   events.push_back(event(record::CourseKind::warning, "injury", nearest->name));
-  return app::say(app::Word::injury_stop, app::anatomy(nearest->name));
+  return words::say(words::Word::injury_stop, words::anatomy(nearest->name));
 }
 
 }  // namespace
@@ -148,12 +150,12 @@ EMSCRIPTEN_KEEPALIVE int watch_open(const char* mode, double voxel_mm) {
   watch.reset();
   return open_watch(mode, voxel_mm) ? 1 : 0;
 }
-EMSCRIPTEN_KEEPALIVE void watch_speak(const char* language) { app::speak(language); }
+EMSCRIPTEN_KEEPALIVE void watch_speak(const char* language) { words::speak(language); }
 
 // {distance, far}: whether the figure is shown, and its title while nothing is near.
 EMSCRIPTEN_KEEPALIVE const char* watch_allowed() {
   return text_of({{"distance", watch->allowed.distance && !watch->spared.empty()},
-                  {"far", app::word(app::Word::nearest_far)}});
+                  {"far", words::word(words::Word::nearest_far)}});
 }
 
 EMSCRIPTEN_KEEPALIVE void watch_step(const char* id) {
@@ -183,7 +185,7 @@ EMSCRIPTEN_KEEPALIVE const char* watch_look(int heard) {
   out["nearest"] = nullptr;
   out["to_spare"] = nullptr;
   if (nearest && w.allowed.distance)
-    out["nearest"] = {{"title", app::say(app::Word::nearest, app::anatomy(nearest->name))},
+    out["nearest"] = {{"title", words::say(words::Word::nearest, words::anatomy(nearest->name))},
                       {"mm", 1e3 * nearest->distance}};
   // as Loudspeaker::update()
   if (nearest && (out["injured"] == true || nearest->distance < w.allowed.tone_below))

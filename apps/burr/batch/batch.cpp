@@ -28,11 +28,11 @@
 #include "burr/base/printable.h"
 #include "burr/rt/simd.h"
 #include "burr/workshop/bone_cache.h"
-#include "commands/command.h"
-#include "commands/console.h"
-#include "commands/counted.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
+#include "shared/command.h"
+#include "shared/console.h"
+#include "shared/counted.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "commands/json_line.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

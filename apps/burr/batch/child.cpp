@@ -14,7 +14,7 @@
 #include <cstring>
 
 #include "batch/row.h"
-#include "commands/interrupt.h"
+#include "shared/interrupt.h"
 
 namespace burr::app {
 namespace {

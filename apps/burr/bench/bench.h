@@ -13,7 +13,7 @@
 #include <chrono>
 #include <vector>
 
-#include "commands/command.h"
+#include "shared/command.h"
 
 namespace burr::app {
 

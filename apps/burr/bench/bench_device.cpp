@@ -15,12 +15,12 @@
 #include "burr/rt/thread.h"
 #include "burr/sim/session.h"
 #include "burr/workshop/hand_device.h"
-#include "commands/hand_options.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
-#include "commands/volume_words.h"
-#include "commands/work.h"
-#include "window/mill/make_ready.h"
+#include "shared/hand_options.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
+#include "shared/make_ready.h"
+#include "shared/volume_words.h"
+#include "shared/work.h"
 
 namespace burr::app {
 namespace {

@@ -22,11 +22,11 @@
 #include "burr/tick/flag_words.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
-#include "commands/picture_size.h"
-#include "commands/volume_words.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
+#include "shared/picture_size.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {

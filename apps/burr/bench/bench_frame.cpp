@@ -39,10 +39,10 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/work_view.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
-#include "commands/picture_size.h"
-#include "commands/volume_words.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
+#include "shared/picture_size.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {

@@ -18,8 +18,8 @@
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
-#include "commands/json_line.h"
-#include "commands/volume_words.h"
+#include "shared/json_line.h"
+#include "shared/volume_words.h"
 
 namespace {
 

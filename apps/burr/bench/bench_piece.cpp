@@ -29,7 +29,7 @@
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
-#include "commands/json_line.h"
+#include "shared/json_line.h"
 
 namespace {
 

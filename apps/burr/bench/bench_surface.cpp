@@ -20,8 +20,8 @@
 #include "burr/edit/undo.h"
 #include "burr/surface/mesher.h"
 #include "burr/volume/iso_vertices.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

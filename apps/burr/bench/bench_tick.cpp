@@ -21,7 +21,7 @@
 #include "burr/rt/clock.h"
 #include "burr/rt/simd.h"
 #include "burr/tick/servo.h"
-#include "commands/json_line.h"
+#include "shared/json_line.h"
 
 namespace {
 

@@ -27,7 +27,7 @@
 #include "burr/scenario/rack.h"
 #include "burr/tick/servo.h"
 #include "burr/workshop/mesh_shape.h"
-#include "commands/json_line.h"
+#include "shared/json_line.h"
 
 namespace {
 

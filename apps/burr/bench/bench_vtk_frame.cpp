@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "commands/command.h"
+#include "shared/command.h"
 
 namespace burr::app {
 namespace {

@@ -15,9 +15,9 @@
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/work_view.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
-#include "commands/recording.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
+#include "shared/recording.h"
 
 namespace burr::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "burr/rt/stats.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
-#include "commands/picture_size.h"
+#include "shared/picture_size.h"
 
 namespace burr::app {
 

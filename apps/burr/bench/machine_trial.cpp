@@ -15,8 +15,8 @@
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
 
 namespace burr::app {
 namespace {

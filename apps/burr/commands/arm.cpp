@@ -11,13 +11,13 @@
 #include "burr/workshop/arm_publisher.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
-#include "commands/recording.h"
-#include "commands/volume_words.h"
-#include "commands/work.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
+#include "shared/recording.h"
+#include "shared/volume_words.h"
+#include "shared/work.h"
 
 namespace burr::app {
 namespace {

@@ -16,6 +16,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/printable.h"
 #include "burr/phantom/phantoms.h"
+#include "burr/report/scored.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scenario/open_lesson.h"
@@ -24,14 +25,13 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
-#include "commands/bone_option.h"
 #include "commands/case_new.h"
-#include "commands/command.h"
-#include "commands/counted.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
-#include "commands/volume_words.h"
-#include "report/scored.h"
+#include "shared/bone_option.h"
+#include "shared/command.h"
+#include "shared/counted.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {
@@ -79,7 +79,7 @@ Status run_check(const Options& options) {
   const auto lesson = scenario::place(std::move(*read), workshop::landmarks_of(*work), file);
   if (!lesson) return lesson.error();
   if (Status fits = scoring::check_done(*lesson, file); !fits) return fits;
-  if (Status fits = rubric_fits(*work); !fits) return fits;
+  if (Status fits = report::rubric_fits(*work); !fits) return fits;
   auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
   if (!made) return made.error();
   if (Status same = scenario::check_tissues(*work, made->bone->tissues()); !same) return same;

@@ -17,7 +17,7 @@
 #include "burr/math/vec3.h"
 #include "burr/scenario/recipe.h"
 #include "burr/workshop/label_check.h"
-#include "commands/counted.h"
+#include "shared/counted.h"
 
 namespace burr::app {
 namespace {

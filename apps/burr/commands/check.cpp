@@ -11,9 +11,9 @@
 #include "bench/machine_trial.h"
 #include "burr/rt/machine_check.h"
 #include "burr/workshop/hand_device.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
 #include "devices/springs_words.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

@@ -17,13 +17,13 @@
 #include "burr/sim/move_pieces.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
-#include "commands/command.h"
 #include "commands/export_dataset.h"
 #include "commands/export_dicom.h"
 #include "commands/export_pieces.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
-#include "commands/volume_words.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {

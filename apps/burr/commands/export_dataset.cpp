@@ -10,8 +10,8 @@
 #include "burr/dataset/dataset.h"
 #include "burr/record/player.h"
 #include "burr/workshop/recording.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
 
 namespace burr::app {
 namespace {

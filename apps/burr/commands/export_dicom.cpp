@@ -13,8 +13,8 @@
 #include "burr/importing/label_codes.h"
 #include "burr/io/read/read_scan.h"
 #include "burr/workshop/open_bone.h"
-#include "commands/counted.h"
-#include "commands/json_line.h"
+#include "shared/counted.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "burr/report/piece_words.h"
 #include "burr/volume/pieces.h"
 #include "burr/volume/volume_of.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
-#include "commands/piece_words.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
 
 namespace burr::app {
 namespace {
@@ -81,7 +81,8 @@ Status export_pieces(const volume::Bone& bone, const std::string& out,
         force);
     if (!allowed) return allowed;
   }
-  const nlohmann::ordered_json told = pieces_json(moved_pieces(store, bone));
+  const nlohmann::ordered_json told =
+      nlohmann::ordered_json::parse(report::pieces_json(report::moved_pieces(store, bone)));
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     const std::string path = numbered(out, n + 1);

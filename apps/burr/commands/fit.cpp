@@ -17,9 +17,9 @@
 #include "burr/fit/laws.h"
 #include "burr/fit/recorded_log.h"
 #include "burr/importing/materials.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
 
 namespace burr::app {
 namespace {

@@ -10,15 +10,15 @@
 #include "burr/base/printable.h"
 #include "burr/io/sandbox/fence.h"
 #include "burr/record/player.h"
+#include "burr/report/piece_words.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recording.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/piece_words.h"
 #include "commands/session_words.h"
-#include "commands/volume_words.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/volume_words.h"
 #include "window/replay/playback.h"
 
 namespace burr::app {
@@ -196,9 +196,10 @@ Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
 }
 
 // Only where one was moved is the bone opened.
-Result<std::vector<MovedPiece>> pieces_of(record::Player& player, const scenario::Recipe& volume,
-                                          const std::optional<scenario::Case>& work) {
-  std::vector<MovedPiece> none;
+Result<std::vector<report::MovedPiece>> pieces_of(record::Player& player,
+                                                  const scenario::Recipe& volume,
+                                                  const std::optional<scenario::Case>& work) {
+  std::vector<report::MovedPiece> none;
   if (!sim::moves_pieces(player)) return none;
   scenario::Recipe recipe = volume;
   recipe.source.clear();  // the recording itself was named
@@ -210,7 +211,7 @@ Result<std::vector<MovedPiece>> pieces_of(record::Player& player, const scenario
     if (!placed) return placed.error();
     lesson = std::move(*placed);
   }
-  auto moved = moved_pieces_of(player, **bone, lesson ? &*lesson : nullptr);
+  auto moved = report::moved_pieces_of(player, **bone, lesson ? &*lesson : nullptr);
   if (!moved) return moved.error();
   return std::move(moved->pieces);
 }
@@ -241,7 +242,7 @@ Status run_recording(const Options& options) {
   fmt::print("{}", session_text(player));
   const auto moved = pieces_of(player, options.volume, work_case);
   if (moved)
-    for (const std::string& line : pieces_text(*moved)) fmt::print("  moved: {}\n", line);
+    for (const std::string& line : report::pieces_text(*moved)) fmt::print("  moved: {}\n", line);
   else  // the rest is known all the same
     fmt::print("  pieces were moved; how they lie is not known: {}\n", moved.error().text);
   for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", notice);
@@ -256,7 +257,8 @@ Status run_recording(const Options& options) {
       {"notices", player.notices()},
       {"case", nullptr}};
   out.update(session_json(player));
-  out["pieces"] = moved ? nlohmann::json(pieces_json(*moved)) : nlohmann::json(nullptr);
+  out["pieces"] =
+      moved ? nlohmann::json::parse(report::pieces_json(*moved)) : nlohmann::json(nullptr);
   if (work_case) {
     nlohmann::json targets = nlohmann::json::array();
     for (const scenario::Target& target : work_case->targets)

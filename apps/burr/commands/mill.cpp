@@ -20,6 +20,7 @@
 #include "burr/importing/materials.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/picture.h"
+#include "burr/report/piece_words.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
@@ -33,18 +34,17 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
 #include "burr/workshop/work_view.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
-#include "commands/law_options.h"
-#include "commands/outputs.h"
-#include "commands/picture_size.h"
-#include "commands/piece_words.h"
-#include "commands/recording.h"
 #include "commands/second_options.h"
-#include "commands/tool_options.h"
-#include "commands/volume_words.h"
-#include "commands/work.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
+#include "shared/law_options.h"
+#include "shared/outputs.h"
+#include "shared/picture_size.h"
+#include "shared/recording.h"
+#include "shared/tool_options.h"
+#include "shared/volume_words.h"
+#include "shared/work.h"
 
 namespace burr::app {
 namespace {
@@ -296,7 +296,7 @@ struct Carry {
 Result<Carry> read_carry(const std::string& text) {
   const std::size_t colon = text.find(':');
   Carry carry;
-  if (colon == std::string::npos || !point_of(text.substr(0, colon), carry.near))
+  if (colon == std::string::npos || !report::point_of(text.substr(0, colon), carry.near))
     return error(Trouble::usage,
                  fmt::format("--carry-piece {}: give X,Y,Z:FILE.csv (mm), for example "
                              "10,0,5:carry.csv",
@@ -359,8 +359,8 @@ void rest_at_end(device::HandPath& path) {
 
 struct Told {
   std::vector<std::string> doubts;
-  std::vector<MovedPiece> pieces;  // that were moved
-  std::optional<CutLeft> left;     // of a cut along a plane
+  std::vector<report::MovedPiece> pieces;  // that were moved
+  std::optional<CutLeft> left;             // of a cut along a plane
   thermal::HeatSummary heat = {};
 };
 
@@ -381,7 +381,7 @@ void print(const Options& options, sim::Session& session, const Told& told) {
     fmt::print("put off at times because this machine is too slow: {}\n",
                tick::name(outcome.most_shed));
   if (options.heat) print_heat(session, told.heat, outcome.heat_rows_lost);
-  for (const std::string& line : pieces_text(told.pieces)) fmt::print("{}\n", line);
+  for (const std::string& line : report::pieces_text(told.pieces)) fmt::print("{}\n", line);
   for (const std::string& doubt : told.doubts) fmt::print("noted: {}\n", doubt);
   for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
     fmt::print("noted: {}\n", sentence);
@@ -402,7 +402,7 @@ Account account_of(const Options& options, sim::Session& session, const Recordin
   out["owed_mm3"] = 1e9 * outcome.ledger.debt;
   if (!options.move_pieces.empty() || !options.carry_piece.empty()) {
     out["moved_loss_mm3"] = 1e9 * outcome.ledger.moved;
-    out["pieces"] = pieces_json(told.pieces);
+    out["pieces"] = nlohmann::json::parse(report::pieces_json(told.pieces));
   }
   if (told.left) {
     out["plane_left"] = told.left->share;
@@ -457,12 +457,12 @@ Result<importing::Imported> open_volume(Options& options) {
   return opened;
 }
 
-std::vector<MovedPiece> pieces_of(const Options& options, const edit::PieceStore& store,
-                                  const volume::Bone& bone) {
+std::vector<report::MovedPiece> pieces_of(const Options& options, const edit::PieceStore& store,
+                                          const volume::Bone& bone) {
   if (!options.work_case || (options.move_pieces.empty() && options.carry_piece.empty()))
-    return moved_pieces(store, bone);
+    return report::moved_pieces(store, bone);
   const auto lesson = workshop::placed_lesson(*options.work_case);
-  return moved_pieces(store, bone, lesson ? &*lesson : nullptr);
+  return report::moved_pieces(store, bone, lesson ? &*lesson : nullptr);
 }
 
 void set_servo(const Options& options, tick::ServoSettings& servo) {
@@ -509,7 +509,7 @@ Status run(Options options, Account* given) {
                              fmt::join(surgeon::motion_names(), ", ")));
   std::vector<sim::PieceOrder> orders;
   for (const std::string& text : options.move_pieces) {
-    auto order = piece_order(text);
+    auto order = report::piece_order(text);
     if (!order) return order.error();
     orders.push_back(*order);
   }

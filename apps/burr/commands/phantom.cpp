@@ -12,9 +12,9 @@
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/prebuilt_phantom.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
 
 namespace burr::app {
 namespace {

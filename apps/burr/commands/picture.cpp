@@ -12,11 +12,11 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/opening.h"
 #include "burr/workshop/work_view.h"
-#include "commands/command.h"
-#include "commands/outputs.h"
-#include "commands/picture_size.h"
-#include "commands/views.h"
-#include "commands/volume_words.h"
+#include "shared/command.h"
+#include "shared/outputs.h"
+#include "shared/picture_size.h"
+#include "shared/views.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {

@@ -11,15 +11,15 @@
 #include <utility>
 
 #include "burr/record/player.h"
+#include "burr/report/piece_words.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/volume/pieces.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recording.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/piece_words.h"
-#include "commands/volume_words.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {
@@ -45,7 +45,8 @@ Status run(const Options& options) {
     lesson = std::move(*placed);
   }
   const std::unique_ptr<volume::Bone> now = volume::copy_of(**bone);
-  const auto moved = moved_pieces_of(**player, *now, lesson ? &*lesson : nullptr, options.at_s);
+  const auto moved =
+      report::moved_pieces_of(**player, *now, lesson ? &*lesson : nullptr, options.at_s);
   if (!moved) return moved.error();
   for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
   const volume::PieceFinder finder(std::as_const(*now));
@@ -57,16 +58,16 @@ Status run(const Options& options) {
     nlohmann::ordered_json out;
     out["free"] = free;
     out["splinters"] = splinters;
-    out["moved"] = pieces_json(moved->pieces);
+    out["moved"] = nlohmann::ordered_json::parse(report::pieces_json(moved->pieces));
     fmt::print("{}\n", json_line(out));
     return fine();
   }
   fmt::print("{} free, {} of them moved; {} splinters\n",
              free == 1 ? "1 piece" : fmt::format("{} pieces", free),
              std::count_if(moved->pieces.begin(), moved->pieces.end(),
-                           [](const MovedPiece& piece) { return !piece.out; }),
+                           [](const report::MovedPiece& piece) { return !piece.out; }),
              splinters);
-  for (const std::string& line : pieces_text(moved->pieces)) fmt::print("{}\n", line);
+  for (const std::string& line : report::pieces_text(moved->pieces)) fmt::print("{}\n", line);
   return fine();
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "burr/record/repair.h"
-#include "commands/command.h"
-#include "commands/outputs.h"
+#include "shared/command.h"
+#include "shared/outputs.h"
 
 namespace {
 

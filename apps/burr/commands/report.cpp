@@ -12,15 +12,15 @@
 
 #include "burr/base/new_file.h"
 #include "burr/base/printable.h"
-#include "commands/command.h"
-#include "commands/outputs.h"
-#include "commands/score_words.h"
-#include "commands/volume_words.h"
-#include "report/make_report.h"
-#include "report/report_page.h"
-#include "report/scored.h"
-#include "report/self_marks.h"
-#include "window/shell/words.h"
+#include "burr/report/make_report.h"
+#include "burr/report/report_page.h"
+#include "burr/report/score_words.h"
+#include "burr/report/scored.h"
+#include "burr/report/self_marks.h"
+#include "shared/command.h"
+#include "shared/outputs.h"
+#include "shared/volume_words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {
@@ -31,24 +31,24 @@ struct Options {
   std::size_t pictures = 12;
 };
 
-Result<Scored> scored_file(const std::string& file, const Options& options) {
-  auto judged = judged_by(file, options.rubric);
+Result<report::Scored> scored_file(const std::string& file, const Options& options) {
+  auto judged = report::judged_by(file, options.rubric);
   if (!judged) return judged.error();
   for (const std::string& notice : judged->player->notices()) fmt::print(stderr, "{}\n", notice);
-  return scored(std::move(*judged), options.volume, progress());
+  return report::scored(std::move(*judged), options.volume, progress());
 }
 
-Status write_page(const Report& report, const Options& options) {
-  const std::string page = page_of(report);
+Status write_page(const report::Report& report, const Options& options) {
+  const std::string page = report::page_of(report);
   auto file = base::NewFile::create(options.out);
   if (!file) return file.error();
   file->write(page);
   if (const Status written = file->put_in_place(); !written) return written;
   std::size_t items = 0, pictures = 0;
-  for (const ReportSides& side : report.sides) pictures += side.pictures.size();
-  for (const ReportPart& part : report.parts) {
+  for (const report::ReportSides& side : report.sides) pictures += side.pictures.size();
+  for (const report::ReportPart& part : report.parts) {
     items += part.items.size();
-    for (const ReportItem& item : part.items) pictures += item.pictures.size();
+    for (const report::ReportItem& item : part.items) pictures += item.pictures.size();
   }
   fmt::print("{}: {} items, {} pictures, {:.1f} MB\n", base::printable(options.out), items,
              pictures, 1e-6 * static_cast<double>(page.size()));
@@ -61,34 +61,34 @@ Status run_report(const Options& options) {
                     {{"--out", options.out, {".html"}}});
   if (!possible) return possible;
   speak(options.language);
-  auto judged = judged_by(options.source, options.rubric);
+  auto judged = report::judged_by(options.source, options.rubric);
   if (!judged) return judged.error();
-  ReportSettings settings;
+  report::ReportSettings settings;
   settings.most_pictures = options.pictures;
   settings.rubric = options.rubric;
-  settings.self = recorded_self_marks(*judged->player, judged->rubric);
+  settings.self = report::recorded_self_marks(*judged->player, judged->rubric);
   if (!options.self.empty()) {
-    auto marks = read_self_marks(options.self, judged->rubric);
+    auto marks = report::read_self_marks(options.self, judged->rubric);
     if (!marks) return marks.error();
     settings.self = std::move(*marks);
   }
   for (const std::string& notice : judged->player->notices()) fmt::print(stderr, "{}\n", notice);
-  auto mine = scored(std::move(*judged), options.volume, progress());
+  auto mine = report::scored(std::move(*judged), options.volume, progress());
   if (!mine) return mine.error();
-  std::optional<Scored> expert;
+  std::optional<report::Scored> expert;
   if (!options.beside.empty()) {
     auto made = scored_file(options.beside, options);
     if (!made) return made.error();
     expert = std::move(*made);
     settings.beside = &*expert;
   }
-  const auto report = report_on(*mine, settings, progress());
+  const auto report = report::report_on(*mine, settings, progress());
   if (!report) return report.error();
   return write_page(*report, options);
 }
 
 // Item by item, for a terminal.
-void print_comparison(const Scored& a, const Scored& b) {
+void print_comparison(const report::Scored& a, const report::Scored& b) {
   const scoring::Rubric& rubric = a.judged.rubric;
   fmt::print("{}, version {}\n  {:<26}  {:<26}  {}\n", base::printable(rubric.name), rubric.version,
              "", "A", "B");
@@ -103,8 +103,9 @@ void print_comparison(const Scored& a, const Scored& b) {
                base::printable(rubric.items[n].id), cell(first), cell(second));
   }
   for (const auto& [name, one] : {std::pair{"A", &a}, std::pair{"B", &b}})
-    for (const std::string& line : {total_line(rubric, scoring::Part::product, one->score.product),
-                                    total_line(rubric, scoring::Part::process, one->score.process)})
+    for (const std::string& line :
+         {report::total_line(rubric, scoring::Part::product, one->score.product),
+          report::total_line(rubric, scoring::Part::process, one->score.process)})
       if (!line.empty()) fmt::print("{}: {}\n", name, line);
   fmt::print("*: the two differ. No threshold was compared with people; there is no grade.\n");
 }
@@ -118,13 +119,13 @@ Status run_compare(const Options& options) {
   if (!a) return a.error();
   auto b = scored_file(options.other, options);
   if (!b) return b.error();
-  if (const Status same = comparable(*a, *b); !same) return same;
+  if (const Status same = report::comparable(*a, *b); !same) return same;
   print_comparison(*a, *b);
   if (options.out.empty()) return fine();
-  ReportSettings settings;
+  report::ReportSettings settings;
   settings.most_pictures = options.pictures;
   settings.rubric = options.rubric;
-  const auto report = comparison(*a, *b, settings, progress());
+  const auto report = report::comparison(*a, *b, settings, progress());
   if (!report) return report.error();
   return write_page(*report, options);
 }

@@ -14,34 +14,36 @@
 #include <vector>
 
 #include "burr/lrs/launch.h"
+#include "burr/net/guard.h"
 #include "burr/record/diary.h"
 #include "burr/render/picture.h"
-#include "burr/serve/guard.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
-#include "commands/bone_option.h"
-#include "commands/command.h"
-#include "commands/hand_options.h"
-#include "commands/identity_options.h"
-#include "commands/law_options.h"
-#include "commands/outputs.h"
-#include "commands/recording.h"
 #include "commands/run_folder.h"
 #include "commands/run_headless.h"
 #include "commands/summary.h"
-#include "commands/volume_words.h"
-#include "commands/work.h"
 #include "school/xapi.h"
-#include "window/mill/make_ready.h"
+#include "shared/bone_option.h"
+#include "shared/command.h"
+#include "shared/hand_options.h"
+#include "shared/identity_options.h"
+#include "shared/interrupt.h"
+#include "shared/law_options.h"
+#include "shared/make_ready.h"
+#include "shared/outputs.h"
+#include "shared/recording.h"
+#include "shared/volume_words.h"
+#include "shared/words.h"
+#include "shared/work.h"
 #include "window/mill/window.h"
 #include "window/review/enter_session.h"
 #include "window/review/review.h"
-#include "window/shell/loading.h"
 #include "window/shell/pages.h"
-#include "window/shell/words.h"
+#include "window/shell/review_session.h"
 #include "window/station/station_link.h"
+#include "window/ui/loading.h"
 
 namespace burr::app {
 namespace {
@@ -127,14 +129,14 @@ Result<Closed> mill_into_folder(Desk& desk, Ready& ready, const Options& options
   if (!written) return written.error();
   if (!stays) return stays.error();
   if (!done || !*stays) return *left;
-  return review(desk, {.file = file,
-                       .title = title_of(ready),
-                       .rubric = rubric_for(*ready.work_case),
-                       .volume = ready.volume,
-                       .marks = ready.allowed.marks,
-                       .seconds = window.seconds,
-                       .folder = window.folder,
-                       .screenshot = window.screenshot});
+  return review_session(desk, {.file = file,
+                               .title = title_of(ready),
+                               .rubric = rubric_for(*ready.work_case),
+                               .volume = ready.volume,
+                               .marks = ready.allowed.marks,
+                               .seconds = window.seconds,
+                               .folder = window.folder,
+                               .screenshot = window.screenshot});
 }
 
 // One session of a person on the case or scan that was named. Closed::again: and one more.
@@ -161,7 +163,7 @@ Result<Closed> session_in_window(Desk& desk, const Options& options) {
 // With --live: this station appears on the instructor's page.
 Status show_to_instructor(Desk& desk, const Options& options) {
   if (options.live.empty()) return fine();
-  auto token = serve::token_from(options.live_token);
+  auto token = net::token_from(options.live_token);
   if (!token) return token.error();
   std::string name = options.station;
   if (name.empty()) {

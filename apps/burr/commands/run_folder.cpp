@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "commands/outputs.h"
+#include "shared/outputs.h"
 #include "window/mill/window.h"
 
 namespace burr::app {

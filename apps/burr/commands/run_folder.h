@@ -9,7 +9,7 @@
 #include "burr/base/result.h"
 #include "burr/sim/session.h"
 #include "commands/summary.h"
-#include "commands/work.h"
+#include "shared/work.h"
 
 namespace burr::app {
 

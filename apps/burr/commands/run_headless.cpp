@@ -22,11 +22,11 @@
 #include "burr/workshop/spared.h"
 #include "burr/workshop/tool_looks.h"
 #include "burr/workshop/work_view.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
-#include "commands/recording.h"
 #include "commands/summary.h"
-#include "commands/work.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
+#include "shared/recording.h"
+#include "shared/work.h"
 
 namespace burr::app {
 namespace {

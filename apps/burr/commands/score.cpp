@@ -15,6 +15,9 @@
 #include "burr/base/printable.h"
 #include "burr/record/player.h"
 #include "burr/record/session_info.h"
+#include "burr/report/piece_words.h"
+#include "burr/report/score_words.h"
+#include "burr/report/scored.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scoring/reference.h"
@@ -23,13 +26,10 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
-#include "commands/bone_option.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/piece_words.h"
-#include "commands/score_words.h"
-#include "commands/volume_words.h"
-#include "report/scored.h"
+#include "shared/bone_option.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {
@@ -52,7 +52,7 @@ void print_items(const scoring::Rubric& rubric, const scoring::Score& score) {
     fmt::print("{}\n", scoring::word_of(part));
     for (std::size_t n = 0; n < rubric.items.size(); ++n)
       if (rubric.items[n].part == part)
-        fmt::print("{}\n", item_line(rubric.items[n], score.outcomes[n]));
+        fmt::print("{}\n", report::item_line(rubric.items[n], score.outcomes[n]));
   }
 }
 
@@ -70,26 +70,27 @@ std::optional<bool> rubric_changed(const record::Player& player, const scoring::
   return who->rubric_hash != rubric.text_hash;
 }
 
-nlohmann::ordered_json account_of(const Scored& made, const std::optional<bool>& changed) {
+nlohmann::ordered_json account_of(const report::Scored& made, const std::optional<bool>& changed) {
   const scoring::Rubric& rubric = made.judged.rubric;
-  nlohmann::ordered_json out = score_json(rubric, made.score);
+  nlohmann::ordered_json out =
+      nlohmann::ordered_json::parse(report::score_json(rubric, made.score));
   out["rubric_hash"] = record::hex(rubric.text_hash);
   out["rubric_changed"] =
       changed ? nlohmann::ordered_json(*changed) : nlohmann::ordered_json(nullptr);
-  out["pieces"] = pieces_json(made.pieces);
+  out["pieces"] = nlohmann::ordered_json::parse(report::pieces_json(made.pieces));
   return out;
 }
 
 // given: takes the account; nullptr: it is printed.
 Status run_score(const Options& options, Account* given) {
-  auto judged = judged_by(options.source, options.rubric);
+  auto judged = report::judged_by(options.source, options.rubric);
   if (!judged) return judged.error();
   const scoring::Item* wanted = judged->rubric.item(options.explain);
   if (!options.explain.empty() && wanted == nullptr)
     return error(Trouble::usage,
                  fmt::format("--explain {}: there is no such item; use one of {}",
                              base::printable(options.explain), ids_of(judged->rubric)));
-  const auto made = scored(std::move(*judged), options.volume, progress());
+  const auto made = report::scored(std::move(*judged), options.volume, progress());
   if (!made) return made.error();
   const record::Player& player = *made->judged.player;
   const scoring::Rubric& rubric = made->judged.rubric;
@@ -103,20 +104,21 @@ Status run_score(const Options& options, Account* given) {
   for (const std::string& notice : player.notices()) fmt::print(stderr, "{}\n", notice);
   if (wanted != nullptr) {
     const auto at = static_cast<std::size_t>(wanted - rubric.items.data());
-    fmt::print("{}\n", explanation(*wanted, score.outcomes[at], player.info().rate_hz));
+    fmt::print("{}\n", report::explanation(*wanted, score.outcomes[at], player.info().rate_hz));
   } else {
     fmt::print("{}, version {}\n", base::printable(rubric.name), rubric.version);
     print_items(rubric, score);
-    for (const std::string& line : {total_line(rubric, scoring::Part::product, score.product),
-                                    total_line(rubric, scoring::Part::process, score.process)})
+    for (const std::string& line :
+         {report::total_line(rubric, scoring::Part::product, score.product),
+          report::total_line(rubric, scoring::Part::process, score.process)})
       if (!line.empty()) fmt::print("{}\n", line);
-    if (const std::string gates = gate_line(rubric, score); !gates.empty())
+    if (const std::string gates = report::gate_line(rubric, score); !gates.empty())
       fmt::print("{}\n", gates);
     fmt::print("{}: {}; {:.0f} % of the bone that the case says to remove is gone\n",
                score.unfinished ? "unfinished" : "finished", score.ending, 100 * score.worked);
     if (!made->pieces.empty())
       fmt::print("moved, which earns nothing; the items look at the bone as if it had not been:\n");
-    for (const std::string& line : pieces_text(made->pieces)) fmt::print("  {}\n", line);
+    for (const std::string& line : report::pieces_text(made->pieces)) fmt::print("  {}\n", line);
   }
   if (changed.value_or(false))
     fmt::print(
@@ -176,7 +178,7 @@ Status run_check(const Options& options) {
       scenario::read_case(options.work_case.empty() ? rubric->case_source : options.work_case);
   if (!work) return work.error();
   if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken;
-  const auto lesson = lesson_for(*work, *rubric);
+  const auto lesson = report::lesson_for(*work, *rubric);
   if (!lesson) return lesson.error();
   const auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
   if (!made) return made.error();

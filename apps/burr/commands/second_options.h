@@ -7,7 +7,7 @@
 
 #include "burr/base/result.h"
 #include "burr/sim/session.h"
-#include "commands/tool_options.h"
+#include "shared/tool_options.h"
 
 namespace burr::app {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/printable.h"
-#include "commands/counted.h"
+#include "shared/counted.h"
 
 namespace burr::app {
 namespace {

@@ -20,12 +20,12 @@
 #include "burr/school/study/raters.h"
 #include "burr/school/study/reliability.h"
 #include "burr/school/study/table.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
 #include "commands/study_standards.h"
 #include "school/agreement.h"
 #include "school/store_command.h"
 #include "school/study_source.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

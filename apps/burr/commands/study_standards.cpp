@@ -13,9 +13,9 @@
 #include "burr/school/ratings.h"
 #include "burr/school/study/standards.h"
 #include "burr/school/study/table.h"
-#include "commands/json_line.h"
 #include "school/store_command.h"
 #include "school/study_source.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

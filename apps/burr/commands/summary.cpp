@@ -8,8 +8,8 @@
 #include "burr/base/markup.h"
 #include "burr/base/new_file.h"
 #include "burr/base/version.h"
-#include "commands/html_page.h"
-#include "commands/recording.h"
+#include "shared/html_page.h"
+#include "shared/recording.h"
 
 namespace burr::app {
 namespace {

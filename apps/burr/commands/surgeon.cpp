@@ -26,14 +26,14 @@
 #include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
-#include "commands/bone_option.h"
-#include "commands/command.h"
-#include "commands/identity_options.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
-#include "commands/recording.h"
-#include "commands/volume_words.h"
+#include "shared/bone_option.h"
+#include "shared/command.h"
+#include "shared/identity_options.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
+#include "shared/recording.h"
+#include "shared/volume_words.h"
 
 namespace burr::app {
 namespace {

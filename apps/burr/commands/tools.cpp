@@ -16,9 +16,9 @@
 #include "burr/scenario/rack.h"
 #include "burr/workshop/mesh_shape.h"
 #include "burr/workshop/tool_picture.h"
-#include "commands/command.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
+#include "shared/command.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
 
 namespace burr::app {
 namespace {

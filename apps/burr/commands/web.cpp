@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "burr/base/new_file.h"
-#include "commands/built_page.h"
-#include "commands/command.h"
+#include "shared/built_page.h"
+#include "shared/command.h"
 
 namespace burr::app {
 namespace {

@@ -8,13 +8,13 @@
 #include "burr/base/new_file.h"
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/hand_device.h"
-#include "commands/command.h"
-#include "commands/hand_options.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
-#include "commands/outputs.h"
 #include "devices/springs_words.h"
 #include "devices/trial.h"
+#include "shared/command.h"
+#include "shared/hand_options.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
+#include "shared/outputs.h"
 
 namespace burr::app {
 namespace {

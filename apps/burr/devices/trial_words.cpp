@@ -6,9 +6,9 @@
 
 #include "burr/base/markup.h"
 #include "burr/base/version.h"
-#include "commands/html_page.h"
-#include "commands/json_line.h"
 #include "devices/trial.h"
+#include "shared/html_page.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

@@ -19,12 +19,12 @@
 #include "burr/people/observer.h"
 #include "burr/sim/feeling.h"
 #include "burr/workshop/hand_device.h"
-#include "commands/command.h"
-#include "commands/hand_options.h"
-#include "commands/interrupt.h"
-#include "commands/json_line.h"
 #include "people/run.h"
 #include "scenes/wall.h"
+#include "shared/command.h"
+#include "shared/hand_options.h"
+#include "shared/interrupt.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

@@ -10,8 +10,8 @@
 #include "burr/base/printable.h"
 #include "burr/school/ratings.h"
 #include "burr/school/sessions.h"
-#include "commands/counted.h"
-#include "commands/json_line.h"
+#include "shared/counted.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

@@ -23,9 +23,6 @@
 #include "burr/school/practice.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
-#include "commands/command.h"
-#include "commands/counted.h"
-#include "commands/volume_words.h"
 #include "school/decide.h"
 #include "school/learner_export.h"
 #include "school/learner_sessions.h"
@@ -33,7 +30,11 @@
 #include "school/practice_words.h"
 #include "school/store_command.h"
 #include "school/xapi.h"
-#include "window/shell/words.h"
+#include "shared/command.h"
+#include "shared/counted.h"
+#include "shared/outputs.h"
+#include "shared/volume_words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

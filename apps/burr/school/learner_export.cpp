@@ -10,18 +10,18 @@
 #include "burr/base/new_file.h"
 #include "burr/base/printable.h"
 #include "burr/io/write/zip.h"
+#include "burr/report/marked.h"
+#include "burr/report/report_page.h"
 #include "burr/school/export.h"
 #include "burr/school/forget.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
-#include "commands/command.h"
-#include "commands/counted.h"
-#include "commands/outputs.h"
-#include "report/marked.h"
-#include "report/report_page.h"
+#include "burr/words/words.h"
 #include "school/store_command.h"
-#include "window/shell/words.h"
+#include "shared/command.h"
+#include "shared/counted.h"
+#include "shared/outputs.h"
 
 namespace burr::app {
 namespace {
@@ -65,11 +65,11 @@ void add_reports(const Options& options, const std::vector<school::SessionRow>& 
       missing.push_back(one.recording_uri + " (another file has its name now)");
       continue;
     }
-    const auto report = marked(path, "", {}, progress());
+    const auto report = report::marked(path, "", {}, progress());
     if (report)
       files.push_back(
           {fmt::format("report_{}_{}.html", day_of(one.started_ms), one.id.substr(0, 8)),
-           page_of(*report)});
+           report::page_of(*report)});
     else
       missing.push_back(fmt::format("{} ({})", one.recording_uri, report.error().text));
   }

@@ -12,11 +12,11 @@
 #include "burr/school/pending.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
-#include "commands/command.h"
-#include "commands/counted.h"
 #include "school/session_of.h"
 #include "school/store_command.h"
 #include "school/xapi.h"
+#include "shared/command.h"
+#include "shared/counted.h"
 
 namespace burr::app {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <ctime>
 
-#include "commands/counted.h"
 #include "school/store_command.h"
+#include "shared/counted.h"
 
 namespace burr::app {
 

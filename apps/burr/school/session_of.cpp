@@ -10,12 +10,12 @@
 #include "burr/base/printable.h"
 #include "burr/base/version.h"
 #include "burr/record/rename_and_sync.h"
+#include "burr/report/self_marks.h"
 #include "burr/school/forget.h"
 #include "burr/school/statements.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
 #include "burr/workshop/allowed.h"
-#include "report/self_marks.h"
 
 namespace burr::app {
 namespace {
@@ -61,7 +61,7 @@ school::ItemRecord item_of(const Item& item, const Outcome& outcome, double rate
   return out;
 }
 
-school::ScoreRecord score_of(const Scored& scored, Part part, const scoring::Total& total) {
+school::ScoreRecord score_of(const report::Scored& scored, Part part, const scoring::Total& total) {
   school::ScoreRecord out;
   out.part = scoring::word_of(part);
   out.total = total.points;
@@ -78,13 +78,13 @@ school::ScoreRecord score_of(const Scored& scored, Part part, const scoring::Tot
   return out;
 }
 
-const char* word_of(SelfMark mark) {
+const char* word_of(report::SelfMark mark) {
   switch (mark) {
-    case SelfMark::met:
+    case report::SelfMark::met:
       return "met";
-    case SelfMark::unmet:
+    case report::SelfMark::unmet:
       return "unmet";
-    case SelfMark::unknown:
+    case report::SelfMark::unknown:
       break;
   }
   return "unknown";
@@ -106,7 +106,7 @@ std::int64_t ended_ms(const std::string& file) {
 
 }  // namespace
 
-school::SessionRecord record_of(const Scored& scored) {
+school::SessionRecord record_of(const report::Scored& scored) {
   const record::Player& player = *scored.judged.player;
   const record::SessionInfo& info = player.info();
   const scoring::Rubric& rubric = scored.judged.rubric;
@@ -142,7 +142,7 @@ school::SessionRecord record_of(const Scored& scored) {
     if (done.number > 0 && done.number <= steps.size())
       out.metrics.push_back(
           {std::string(school::kStepDone) + steps[done.number - 1].id, "s", done.t});
-  for (const auto& [item, mark] : recorded_self_marks(player, rubric))
+  for (const auto& [item, mark] : report::recorded_self_marks(player, rubric))
     out.self_marks.push_back({item, word_of(mark)});
   return out;
 }
@@ -155,7 +155,7 @@ Result<school::SessionRecord> session_of(const std::string& recording, const std
     return error(
         Trouble::interrupted,
         fmt::format("{}: this session still goes on; enter it afterwards", base::printable(name)));
-  auto judged = judged_by(recording, rubric);
+  auto judged = report::judged_by(recording, rubric);
   if (!judged) return judged.error();
   const auto& identity = judged->player->info().identity;
   const std::string said = identity ? identity->learner : std::string();
@@ -166,7 +166,7 @@ Result<school::SessionRecord> session_of(const std::string& recording, const std
     return error(Trouble::usage, fmt::format("{}: the recording says that it is {}'s, not {}'s",
                                              base::printable(name), base::printable(said),
                                              base::printable(learner)));
-  auto made = scored(std::move(*judged), volume, progress);
+  auto made = report::scored(std::move(*judged), volume, progress);
   if (!made) return made.error();
   school::SessionRecord record = record_of(*made);
   record.learner = said.empty() ? learner : said;

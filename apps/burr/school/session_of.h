@@ -8,9 +8,9 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/report/scored.h"
 #include "burr/scenario/recipe.h"
 #include "burr/school/session_record.h"
-#include "report/scored.h"
 
 namespace burr::app {
 
@@ -24,6 +24,6 @@ namespace burr::app {
                                                        Progress& progress);
 
 // Without file and date.
-[[nodiscard]] school::SessionRecord record_of(const Scored& scored);
+[[nodiscard]] school::SessionRecord record_of(const report::Scored& scored);
 
 }  // namespace burr::app

@@ -7,7 +7,7 @@
 
 #include "burr/base/places.h"
 #include "burr/base/printable.h"
-#include "commands/json_line.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 

@@ -12,7 +12,7 @@
 
 #include "burr/base/result.h"
 #include "burr/school/store.h"
-#include "commands/command.h"
+#include "shared/command.h"
 
 namespace burr::app {
 

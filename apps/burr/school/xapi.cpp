@@ -17,10 +17,10 @@
 #include "burr/lrs/launch.h"
 #include "burr/lrs/sender.h"
 #include "burr/school/outbox.h"
-#include "commands/command.h"
-#include "commands/counted.h"
-#include "commands/interrupt.h"
 #include "school/store_command.h"
+#include "shared/command.h"
+#include "shared/counted.h"
+#include "shared/interrupt.h"
 
 namespace burr::app {
 namespace {

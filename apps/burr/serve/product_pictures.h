@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "window/shell/helper_process.h"
+#include "shared/helper_process.h"
 
 namespace burr::app {
 

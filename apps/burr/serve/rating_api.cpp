@@ -17,17 +17,17 @@
 #include "burr/school/study/reliability.h"
 #include "burr/school/study_tables.h"
 #include "burr/school/uuid.h"
-#include "commands/json_line.h"
 #include "school/agreement.h"
 #include "school/products.h"
 #include "serve/school_api.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using serve::Request;
-using serve::Response;
+using net::Request;
+using net::Response;
 namespace study = school::study;
 
 constexpr std::size_t kMostMarks = 200;
@@ -39,13 +39,13 @@ Response told(const Json& content) {
 }
 
 Response refused_by(const Error& why) {
-  return serve::refusal(why.trouble == Trouble::usage ? 400
-                        : why.trouble == Trouble::io  ? 503
-                                                      : 500,
-                        why.text);
+  return net::refusal(why.trouble == Trouble::usage ? 400
+                      : why.trouble == Trouble::io  ? 503
+                                                    : 500,
+                      why.text);
 }
 
-// A mark must come with the field Origin. Where it is there, serve::refused() has checked that it names this server.
+// A mark must come with the field Origin. Where it is there, net::refused() has checked that it names this server.
 bool says_its_page(const Request& request) { return !request.field("origin").empty(); }
 
 std::string text_in(const Json& object, const char* name) {
@@ -178,7 +178,7 @@ std::string RatingDesk::code_for(const Ticket& ticket) {
 // The next product of a rater's queue whose recording is on this computer; the one after it is drawn meanwhile.
 Response RatingDesk::next(const Request& request) {
   const Json asked = Json::parse(request.body, nullptr, false);
-  if (!asked.is_object()) return serve::refusal(400, "give a rater");
+  if (!asked.is_object()) return net::refusal(400, "give a rater");
   const std::string rater = text_in(asked, "rater");
   if (const Status good = school::check_name("the rater", rater); !good)
     return refused_by(good.error());
@@ -203,7 +203,7 @@ Response RatingDesk::next(const Request& request) {
 
 Response RatingDesk::product(const Request& request) {
   const auto found = tickets_.find(request.asked("code"));
-  if (found == tickets_.end()) return serve::refusal(404, "there is no such product to mark");
+  if (found == tickets_.end()) return net::refusal(404, "there is no such product to mark");
   const Ticket& ticket = found->second;
   const auto items = product_items(store_, ticket.session, ticket.rubric_hash);
   if (!items) return refused_by(items.error());
@@ -236,7 +236,7 @@ Response RatingDesk::picture(const Request& request) {
         out.body = one.png;
         return out;
       }
-  return serve::refusal(404, "there is no such picture");
+  return net::refusal(404, "there is no such picture");
 }
 
 Response RatingDesk::take_marks(const Request& request) {
@@ -244,13 +244,13 @@ Response RatingDesk::take_marks(const Request& request) {
   const auto marks = given.is_object() ? given.find("marks") : given.end();
   if (!given.is_object() || marks == given.end() || !marks->is_array() ||
       marks->size() > kMostMarks)
-    return serve::refusal(400, "give rater, code and marks");
+    return net::refusal(400, "give rater, code and marks");
   const auto found = tickets_.find(text_in(given, "code"));
   if (found == tickets_.end() || found->second.rater != text_in(given, "rater"))
-    return serve::refusal(404, "there is no such product to mark");
+    return net::refusal(404, "there is no such product to mark");
   school::Marking marking{found->second.session, found->second.rater, true, {}};
   for (const Json& one : *marks) {
-    if (!one.is_object()) return serve::refusal(400, "a mark has an item, a mark and a reason");
+    if (!one.is_object()) return net::refusal(400, "a mark has an item, a mark and a reason");
     marking.marks.push_back({text_in(one, "item"), text_in(one, "mark"), text_in(one, "reason")});
   }
   if (const Status kept = school::mark(store_, marking); !kept) return refused_by(kept.error());
@@ -268,7 +268,7 @@ Response RatingDesk::agreement(const Request& request) {
     if (rubric == nullptr && (wanted.empty() || wanted == one.hash)) rubric = &one;
   }
   if (rubric == nullptr)
-    return wanted.empty() ? told(out) : serve::refusal(404, "the store has no such rubric");
+    return wanted.empty() ? told(out) : net::refusal(404, "the store has no such rubric");
   // thousands of samples: made again only where the store has changed
   const auto state = store_.database().rows(
       "SELECT (SELECT count(*) FROM rater_mark), (SELECT max(made_ms) FROM rater_mark), "
@@ -334,9 +334,9 @@ Response RatingDesk::standards() {
 std::optional<Response> RatingDesk::answer(const Request& request) {
   const bool post = request.method == "POST";
   if (request.path == "/api/rating/next" || request.path == "/api/rating/marks") {
-    if (!post) return serve::refusal(405, "this must be posted");
+    if (!post) return net::refusal(405, "this must be posted");
     if (!says_its_page(request))
-      return serve::refusal(403, "a change must say from which page it comes");
+      return net::refusal(403, "a change must say from which page it comes");
     return request.path == "/api/rating/next" ? next(request) : take_marks(request);
   }
   if (post) return std::nullopt;

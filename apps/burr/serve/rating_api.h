@@ -19,8 +19,8 @@
 #include <string>
 #include <utility>
 
+#include "burr/net/request.h"
 #include "burr/school/store.h"
-#include "burr/serve/request.h"
 #include "serve/product_pictures.h"
 
 namespace burr::app {
@@ -31,18 +31,18 @@ class RatingDesk {
   explicit RatingDesk(school::Store& store);
 
   // None: the request is about something else.
-  [[nodiscard]] std::optional<serve::Response> answer(const serve::Request& request);
+  [[nodiscard]] std::optional<net::Response> answer(const net::Request& request);
 
  private:
   struct Ticket {
     std::string rater, session, rubric_hash, case_name;
   };
-  [[nodiscard]] serve::Response next(const serve::Request& request);
-  [[nodiscard]] serve::Response product(const serve::Request& request);
-  [[nodiscard]] serve::Response picture(const serve::Request& request);
-  [[nodiscard]] serve::Response take_marks(const serve::Request& request);
-  [[nodiscard]] serve::Response agreement(const serve::Request& request);
-  [[nodiscard]] serve::Response standards();
+  [[nodiscard]] net::Response next(const net::Request& request);
+  [[nodiscard]] net::Response product(const net::Request& request);
+  [[nodiscard]] net::Response picture(const net::Request& request);
+  [[nodiscard]] net::Response take_marks(const net::Request& request);
+  [[nodiscard]] net::Response agreement(const net::Request& request);
+  [[nodiscard]] net::Response standards();
   [[nodiscard]] std::string code_for(const Ticket& ticket);
 
   school::Store& store_;

@@ -15,14 +15,14 @@
 #include <utility>
 
 #include "burr/record/bone_blob.h"
+#include "burr/report/evidence.h"
+#include "burr/report/scored.h"
+#include "burr/report/time_line.h"
 #include "burr/school/database.h"
 #include "burr/school/forget.h"
 #include "burr/school/uuid.h"
 #include "burr/workshop/recording.h"
-#include "commands/json_line.h"
-#include "report/evidence.h"
-#include "report/scored.h"
-#include "report/time_line.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {
@@ -82,19 +82,22 @@ Json rounded(const std::vector<float>& values) {
   return out;
 }
 
-Json line_of(const ReportLine& line, const scenario::Lesson& lesson) {
-  Json out = {{"force_n", rounded(line.force_n)}, {"nearest_mm", rounded(line.nearest_mm)},
-              {"farthest_mm", kFarthestMm},       {"cutting", Json::array()},
-              {"steps", Json::array()},           {"events", Json::array()}};
+Json line_of(const report::ReportLine& line, const scenario::Lesson& lesson) {
+  Json out = {{"force_n", rounded(line.force_n)},
+              {"nearest_mm", rounded(line.nearest_mm)},
+              {"farthest_mm", report::kFarthestMm},
+              {"cutting", Json::array()},
+              {"steps", Json::array()},
+              {"events", Json::array()}};
   for (const bool cut : line.cutting) out["cutting"].push_back(cut ? 1 : 0);
-  for (const ReportLine::Span& step : line.steps) {
+  for (const report::ReportLine::Span& step : line.steps) {
     Json say = Json::object();
     if (const scenario::Step* known = lesson.step(step.id))
       for (const auto& [language, text] : known->title.by_language) say[language] = text;
     out["steps"].push_back(
         {{"id", step.id}, {"from_s", step.from_s}, {"to_s", step.to_s}, {"say", say}});
   }
-  for (const ReportLine::Event& event : line.events)
+  for (const report::ReportLine::Event& event : line.events)
     out["events"].push_back({{"at_s", event.at_s}, {"kind", event.kind}});
   return out;
 }
@@ -120,11 +123,11 @@ Json line_of(const record::Timeline& line) {
 }
 
 // The items that are not met, where there is a moment to see it.
-Json lost_of(const Scored& scored) {
+Json lost_of(const report::Scored& scored) {
   Json out = Json::array();
   for (std::size_t n = 0; n < scored.judged.rubric.items.size(); ++n) {
     if (scored.score.outcomes[n].verdict != scoring::Verdict::unmet) continue;
-    const Evidence seen = evidence_of(scored, n);
+    const report::Evidence seen = report::evidence_of(scored, n);
     if (!seen.at_s) continue;
     out.push_back(
         {{"id", scored.judged.rubric.items[n].id}, {"at_s", *seen.at_s}, {"at_end", seen.at_end}});
@@ -142,10 +145,10 @@ Result<Made> made_of(const std::string& path, Progress& progress) {
   Made made;
   std::unique_ptr<volume::Bone> before;
   std::unique_ptr<record::Player> player;
-  if (auto judged = judged_by(path, "")) {
-    auto all = scored(std::move(*judged), {}, progress);
+  if (auto judged = report::judged_by(path, "")) {
+    auto all = report::scored(std::move(*judged), {}, progress);
     if (!all) return all.error();
-    made.line = line_of(time_line_of(*all), all->judged.lesson);
+    made.line = line_of(report::time_line_of(*all), all->judged.lesson);
     made.line["lost"] = lost_of(*all);
     before = std::move(all->before);
     player = std::move(all->judged.player);
@@ -280,45 +283,45 @@ void Replays::drop(const std::string& session) {
   std::erase_if(replays_, [&](const Shared& one) { return one->session == session; });
 }
 
-serve::Response Replays::recording(const Replay& replay, const std::string& from) {
+net::Response Replays::recording(const Replay& replay, const std::string& from) {
   std::int64_t begin = 0;
   const auto [end, trouble] = std::from_chars(from.data(), from.data() + from.size(), begin);
   if (trouble != std::errc() || end != from.data() + from.size() || begin < 0 ||
       begin > replay.stamp.bytes)
-    return serve::refusal(400, "from: a number of bytes within the recording");
+    return net::refusal(400, "from: a number of bytes within the recording");
   const File file(replay.path);
   const auto now = file.stamp();
   if (!now || *now != replay.stamp)
-    return serve::refusal(409, "the recording has changed meanwhile; load the page again");
-  serve::Response out;
+    return net::refusal(409, "the recording has changed meanwhile; load the page again");
+  net::Response out;
   out.type = "application/octet-stream";
   out.body = file.read(
       begin, std::min<std::size_t>(kMostBytes, static_cast<std::size_t>(now->bytes - begin)));
   return out;
 }
 
-serve::Response Replays::answer(school::Store& store, const serve::Request& request) {
+net::Response Replays::answer(school::Store& store, const net::Request& request) {
   const std::string session = request.asked("session");
   const auto rows = store.database().rows(
       "SELECT recording_uri, recording_hash FROM session WHERE id = $1", {session});
-  if (!rows) return serve::refusal(503, rows.error().text);
+  if (!rows) return net::refusal(503, rows.error().text);
   if (rows->empty()) {
     drop(session);
-    return serve::refusal(404, "there is no such session");
+    return net::refusal(404, "there is no such session");
   }
   const std::string uri = school::text((*rows)[0][0]);
   if (school::path_of(uri).empty())
-    return serve::refusal(409, uri.empty() ? "the session came in without its recording"
-                                           : "the recording is on another computer");
+    return net::refusal(409, uri.empty() ? "the session came in without its recording"
+                                         : "the recording is on another computer");
   const Shared replay = replay_of(session, uri, school::text((*rows)[0][1]));
   std::unique_lock lock(mutex_);
   if (replay->state == Replay::State::failed) {
-    auto out = serve::refusal(replay->status, replay->why);
+    auto out = net::refusal(replay->status, replay->why);
     lock.unlock();
     drop(session);  // asked for again, it is tried again: the disk may be there then
     return out;
   }
-  serve::Response out;
+  net::Response out;
   if (replay->state != Replay::State::ready) {
     out.status = 202;
     out.body = json_line(Json{{"share", replay->share}, {"stage", replay->stage}});
@@ -335,7 +338,7 @@ serve::Response Replays::answer(school::Store& store, const serve::Request& requ
     out.body = replay->bone;
     return out;
   }
-  return serve::refusal(404, "there is nothing at this address");
+  return net::refusal(404, "there is nothing at this address");
 }
 
 }  // namespace burr::app

@@ -25,8 +25,8 @@
 #include <thread>
 #include <vector>
 
+#include "burr/net/request.h"
 #include "burr/school/store.h"
-#include "burr/serve/request.h"
 
 namespace burr::app {
 
@@ -40,7 +40,7 @@ class Replays {
   Replays(const Replays&) = delete;
   Replays& operator=(const Replays&) = delete;
 
-  [[nodiscard]] serve::Response answer(school::Store& store, const serve::Request& request);
+  [[nodiscard]] net::Response answer(school::Store& store, const net::Request& request);
 
  private:
   struct Replay;
@@ -50,7 +50,7 @@ class Replays {
                                  const std::string& hash);
   void drop(const std::string& session);
   void prepare(const std::stop_token& stop);
-  [[nodiscard]] static serve::Response recording(const Replay& replay, const std::string& from);
+  [[nodiscard]] static net::Response recording(const Replay& replay, const std::string& from);
 
   std::mutex mutex_;
   std::condition_variable_any changed_;

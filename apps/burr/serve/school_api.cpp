@@ -18,16 +18,16 @@
 #include "burr/school/study/curve.h"
 #include "burr/scoring/measure_list.h"
 #include "burr/scoring/rubric.h"
-#include "commands/json_line.h"
 #include "school/practice_words.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using net::Request;
+using net::Response;
 using school::Store;
-using serve::Request;
-using serve::Response;
 
 constexpr std::size_t kMostOthers = 40;  // sessions to compare with
 constexpr std::size_t kMostAudit = 500;
@@ -39,7 +39,7 @@ Response answer(const Json& content) {
 }
 
 Response trouble(const Error& error) {
-  return serve::refusal(error.trouble == Trouble::io ? 503 : 500, error.text);
+  return net::refusal(error.trouble == Trouble::io ? 503 : 500, error.text);
 }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -121,7 +121,7 @@ Response cohort(Store& store, const Request& request, school::PracticeMemo& memo
   const auto found = std::find_if(all->begin(), all->end(), [&](const school::Cohort& one) {
     return one.id == request.asked("id");
   });
-  if (found == all->end()) return serve::refusal(404, "there is no such cohort");
+  if (found == all->end()) return net::refusal(404, "there is no such cohort");
   const std::string case_name = request.asked("case");
   const auto cells = school::items_of_cohort(store, found->id, case_name);
   if (!cells) return trouble(cells.error());
@@ -180,7 +180,7 @@ Response learner(Store& store, const Request& request, school::PracticeMemo& mem
   const std::string id = request.asked("id");
   const auto there = store.database().rows("SELECT level FROM learner WHERE id = $1", {id});
   if (!there) return trouble(there.error());
-  if (there->empty()) return serve::refusal(404, "there is no such learner");
+  if (there->empty()) return net::refusal(404, "there is no such learner");
   const auto sessions = school::sessions_of(store, id);
   if (!sessions) return trouble(sessions.error());
   Json out = {{"id", id},
@@ -264,7 +264,7 @@ Response session(Store& store, const Request& request) {
   const auto found = std::find_if(all->begin(), all->end(), [&](const school::SessionRow& one) {
     return one.id == request.asked("id");
   });
-  if (found == all->end()) return serve::refusal(404, "there is no such session");
+  if (found == all->end()) return net::refusal(404, "there is no such session");
   const auto items = school::items_of(store, found->id);
   if (!items) return trouble(items.error());
   const auto scores = school::scores_of(store, found->id);
@@ -327,14 +327,14 @@ std::map<std::string, nlohmann::ordered_json> words_of(Store& store,
 }
 
 Response answer_of_school(Store& store, const Request& request, school::PracticeMemo& memo) {
-  if (request.method == "POST") return serve::refusal(405, "nothing can be changed here");
+  if (request.method == "POST") return net::refusal(405, "nothing can be changed here");
   if (request.path == "/api/overview") return overview_of(store, memo);
   if (request.path == "/api/cohort") return cohort(store, request, memo);
   if (request.path == "/api/learner") return learner(store, request, memo);
   if (request.path == "/api/session") return session(store, request);
   if (request.path == "/api/audit") return audit_of(store);
   if (request.path == "/api/sessions.csv") return csv(store);
-  return serve::refusal(404, "there is nothing at this address");
+  return net::refusal(404, "there is nothing at this address");
 }
 
 }  // namespace burr::app

@@ -14,15 +14,15 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "burr/net/request.h"
 #include "burr/school/practice.h"
 #include "burr/school/store.h"
-#include "burr/serve/request.h"
 
 namespace burr::app {
 
 // 404 for what there is not, 503 while the store cannot be read. memo: of this store, kept between requests.
-[[nodiscard]] serve::Response answer_of_school(school::Store& store, const serve::Request& request,
-                                               school::PracticeMemo& memo);
+[[nodiscard]] net::Response answer_of_school(school::Store& store, const net::Request& request,
+                                             school::PracticeMemo& memo);
 
 // The words of a rubric's items, by id: {"en": ..., "sv": ...}. Empty where its text cannot be read any more.
 [[nodiscard]] std::map<std::string, nlohmann::ordered_json> words_of(

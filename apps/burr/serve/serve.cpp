@@ -13,19 +13,19 @@
 #include <utility>
 #include <vector>
 
+#include "burr/net/guard.h"
+#include "burr/net/http_server.h"
 #include "burr/school/pending.h"
 #include "burr/school/practice.h"
 #include "burr/school/store.h"
-#include "burr/serve/guard.h"
-#include "burr/serve/http_server.h"
-#include "commands/built_page.h"
-#include "commands/command.h"
 #include "school/store_command.h"
 #include "serve/page_files.h"
 #include "serve/rating_api.h"
 #include "serve/replays.h"
 #include "serve/school_api.h"
 #include "serve/stations.h"
+#include "shared/built_page.h"
+#include "shared/command.h"
 
 namespace burr::app {
 namespace {
@@ -33,7 +33,7 @@ namespace {
 struct Options {
   std::string store, token_file, station_token_file;
   bool live = false;
-  serve::Door door;
+  net::Door door;
   std::vector<std::string> names;
   int port = 8231;
 };
@@ -43,7 +43,7 @@ std::vector<std::string> hosts_of(const Options& options, unsigned short port) {
   std::vector<std::string> names = options.names;
   const std::string& address = options.door.address;
   names.push_back(address.find(':') == std::string::npos ? address : "[" + address + "]");
-  if (serve::is_loopback(address)) names.emplace_back("localhost");
+  if (net::is_loopback(address)) names.emplace_back("localhost");
   std::vector<std::string> out;
   const bool usual = port == (options.door.certificate.empty() ? 80 : 443);
   for (const std::string& name : names) {
@@ -54,7 +54,7 @@ std::vector<std::string> hosts_of(const Options& options, unsigned short port) {
 }
 
 Status check(const Options& options) {
-  if (!serve::is_loopback(options.door.address) && options.door.certificate.empty())
+  if (!net::is_loopback(options.door.address) && options.door.certificate.empty())
     return error(Trouble::usage,
                  fmt::format("--listen {}: other computers could read along. Give --certificate "
                              "and --key for TLS, or stay on "
@@ -64,8 +64,8 @@ Status check(const Options& options) {
 }
 
 // The page, burr in a browser, whose view of bones the replay uses. Empty: it is not built.
-std::map<std::string, serve::Response> bone_view() {
-  std::map<std::string, serve::Response> out;
+std::map<std::string, net::Response> bone_view() {
+  std::map<std::string, net::Response> out;
   const auto folder = built_page();
   if (!folder) return out;
   const std::map<std::string, std::string> types = {{".js", "text/javascript; charset=utf-8"},
@@ -76,7 +76,7 @@ std::map<std::string, serve::Response> bone_view() {
     const auto type = types.find(file.extension().string());
     if (type == types.end()) continue;
     std::ifstream in(file, std::ios::binary);
-    serve::Response part;
+    net::Response part;
     part.type = type->second;
     part.body.assign(std::istreambuf_iterator<char>(in), {});
     out["/page/" + std::filesystem::relative(file, *folder).string()] = std::move(part);
@@ -84,34 +84,32 @@ std::map<std::string, serve::Response> bone_view() {
   return out;
 }
 
-serve::Response page(const serve::Request& request,
-                     const std::map<std::string, serve::Response>& view) {
+net::Response page(const net::Request& request, const std::map<std::string, net::Response>& view) {
   if (const auto part = view.find(request.path); part != view.end()) return part->second;
   const std::string path = request.path == "/" ? "/index.html" : request.path;
   for (const PageFile& file : page_files())
     if (file.path == path) {
-      serve::Response out;
+      net::Response out;
       out.type = file.type;
       out.body = file.text;
       out.keeps = path != "/index.html";
       return out;
     }
-  return serve::refusal(404, "there is nothing at this address");
+  return net::refusal(404, "there is nothing at this address");
 }
 
 Status run(const Options& options) {
   if (const Status good = check(options); !good) return good;
   auto store = store_that_is_there(options.store);
   if (!store) return store.error();
-  auto token =
-      options.token_file.empty() ? serve::new_token() : serve::token_from(options.token_file);
+  auto token = options.token_file.empty() ? net::new_token() : net::token_from(options.token_file);
   if (!token) return token.error();
-  serve::Guard guard;
+  net::Guard guard;
   guard.token = *token;
   if (options.live || !options.station_token_file.empty()) {
     auto stations = options.station_token_file.empty()
-                        ? serve::new_token()
-                        : serve::token_from(options.station_token_file);
+                        ? net::new_token()
+                        : net::token_from(options.station_token_file);
     if (!stations) return stations.error();
     if (*stations == guard.token)
       return error(Trouble::usage,
@@ -127,11 +125,11 @@ Status run(const Options& options) {
   school::PracticeMemo memo;
   // the learners' curves are fitted now, so that the first page is fast; if this fails, that page reports the error
   static_cast<void>(school::practice(**store, "", &memo));
-  serve::Door door = options.door;
+  net::Door door = options.door;
   door.port = static_cast<unsigned short>(options.port);
-  auto server = serve::HttpServer::open(door, [&](const serve::Request& request) {
-    if (auto refusal = serve::refused(request, guard)) return *refusal;
-    if (request.path == serve::kStationPath || request.path.starts_with("/api/live"))
+  auto server = net::HttpServer::open(door, [&](const net::Request& request) {
+    if (auto refusal = net::refused(request, guard)) return *refusal;
+    if (request.path == net::kStationPath || request.path.starts_with("/api/live"))
       return stations.answer(request, Stations::Clock::now());
     if (request.path.starts_with("/api/replay")) return replays.answer(**store, request);
     if (!request.path.starts_with("/api/")) return page(request, view);

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "burr/serve/guard.h"
-#include "commands/json_line.h"
+#include "burr/net/guard.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {
@@ -16,8 +16,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kWords[] = {"learner", "case", "mode", "step", "seconds", "force"};
 constexpr std::size_t kLongestWord = 120;
 
-serve::Response answer_with(const Json& content) {
-  serve::Response out;
+net::Response answer_with(const Json& content) {
+  net::Response out;
   out.body = json_line(content);
   return out;
 }
@@ -39,14 +39,14 @@ bool is_jpeg(const std::string& bytes) { return bytes.starts_with("\xFF\xD8\xFF"
 
 }  // namespace
 
-serve::Response Stations::hear(const serve::Request& request, Clock::time_point now) {
+net::Response Stations::hear(const net::Request& request, Clock::time_point now) {
   const std::string name = request.asked("name");
   if (name.empty() || letters(name) > kLongestName)
-    return serve::refusal(400, "name: 1 to 40 letters");
+    return net::refusal(400, "name: 1 to 40 letters");
   if (!request.body.empty() && !is_jpeg(request.body))
-    return serve::refusal(400, "the picture is no JPEG");
+    return net::refusal(400, "the picture is no JPEG");
   if (!stations_.contains(name) && stations_.size() >= kMost)
-    return serve::refusal(503, "there are too many stations");
+    return net::refusal(503, "there are too many stations");
   Station& station = stations_[name];
   station.heard = now;
   for (const char* word : kWords) station.words[word] = request.asked(word).substr(0, kLongestWord);
@@ -67,7 +67,7 @@ serve::Response Stations::hear(const serve::Request& request, Clock::time_point 
   return answer_with(out);
 }
 
-serve::Response Stations::list() const {
+net::Response Stations::list() const {
   Json out = {{"stations", Json::array()}};
   for (const auto& [name, station] : stations_) {
     Json one = {{"name", name}};
@@ -83,13 +83,13 @@ serve::Response Stations::list() const {
   return answer_with(out);
 }
 
-serve::Response Stations::picture(const serve::Request& request, Clock::time_point now) {
+net::Response Stations::picture(const net::Request& request, Clock::time_point now) {
   const auto found = stations_.find(request.asked("station"));
-  if (found == stations_.end()) return serve::refusal(404, "there is no such station now");
+  if (found == stations_.end()) return net::refusal(404, "there is no such station now");
   Station& station = found->second;
   station.watched = now;
   station.was_watched = true;
-  serve::Response out;
+  net::Response out;
   if (station.picture.empty() || station.number <= number_in(request.asked("after"))) {
     out.status = 202;
     out.body = "{}";
@@ -101,18 +101,18 @@ serve::Response Stations::picture(const serve::Request& request, Clock::time_poi
   return out;
 }
 
-serve::Response Stations::say(const serve::Request& request) {
+net::Response Stations::say(const net::Request& request) {
   const Json said = Json::parse(request.body, nullptr, false);
-  if (!said.is_object()) return serve::refusal(400, "this is no JSON object");
+  if (!said.is_object()) return net::refusal(400, "this is no JSON object");
   const auto text_in = [&](const char* key) {
     const auto found = said.find(key);
     return found != said.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
   const auto found = stations_.find(text_in("station"));
-  if (found == stations_.end()) return serve::refusal(404, "there is no such station now");
+  if (found == stations_.end()) return net::refusal(404, "there is no such station now");
   Message message;
   message.text = text_in("text");
-  if (letters(message.text) > kLongestText) return serve::refusal(400, "text: at most 200 letters");
+  if (letters(message.text) > kLongestText) return net::refusal(400, "text: at most 200 letters");
   std::replace_if(
       message.text.begin(), message.text.end(),
       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
@@ -121,30 +121,29 @@ serve::Response Stations::say(const serve::Request& request) {
       return one.is_number() && one.get<double>() >= 0 && one.get<double>() <= 1;
     };
     if (!mark->is_array() || mark->size() != 2 || !share((*mark)[0]) || !share((*mark)[1]))
-      return serve::refusal(400, "mark: x and y, each 0 to 1");
+      return net::refusal(400, "mark: x and y, each 0 to 1");
     message.mark = {(*mark)[0].get<double>(), (*mark)[1].get<double>()};
     const auto number = said.find("picture");
     if (number == said.end() || !number->is_number_unsigned())
-      return serve::refusal(400, "picture: the number of the picture in which the mark is");
+      return net::refusal(400, "picture: the number of the picture in which the mark is");
     message.picture = number->get<std::uint64_t>();
   }
-  if (message.text.empty() && !message.mark)
-    return serve::refusal(400, "say a word, or set a mark");
+  if (message.text.empty() && !message.mark) return net::refusal(400, "say a word, or set a mark");
   message.id = ++last_message_;
   found->second.messages.push_back(message);
   if (found->second.messages.size() > kMostMessages) found->second.messages.pop_front();
   return answer_with({{"id", message.id}});
 }
 
-serve::Response Stations::answer(const serve::Request& request, Clock::time_point now) {
+net::Response Stations::answer(const net::Request& request, Clock::time_point now) {
   std::erase_if(stations_, [&](const auto& one) { return now - one.second.heard > kSilent; });
-  if (request.path == serve::kStationPath) return hear(request, now);
+  if (request.path == net::kStationPath) return hear(request, now);
   if (request.path == "/api/live/say")
-    return request.method == "POST" ? say(request) : serve::refusal(405, "a word is posted");
-  if (request.method == "POST") return serve::refusal(405, "nothing can be changed here");
+    return request.method == "POST" ? say(request) : net::refusal(405, "a word is posted");
+  if (request.method == "POST") return net::refusal(405, "nothing can be changed here");
   if (request.path == "/api/live") return list();
   if (request.path == "/api/live/picture") return picture(request, now);
-  return serve::refusal(404, "there is nothing at this address");
+  return net::refusal(404, "there is nothing at this address");
 }
 
 }  // namespace burr::app

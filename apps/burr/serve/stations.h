@@ -19,7 +19,7 @@
 #include <optional>
 #include <string>
 
-#include "burr/serve/request.h"
+#include "burr/net/request.h"
 
 namespace burr::app {
 
@@ -31,7 +31,7 @@ class Stations {
   static constexpr std::size_t kLongestName = 40, kLongestText = 200;  // letters
   static constexpr std::chrono::seconds kSilent{30}, kWatched{3};
 
-  [[nodiscard]] serve::Response answer(const serve::Request& request, Clock::time_point now);
+  [[nodiscard]] net::Response answer(const net::Request& request, Clock::time_point now);
 
  private:
   struct Message {
@@ -49,10 +49,10 @@ class Stations {
     bool was_watched = false;
     std::deque<Message> messages;
   };
-  [[nodiscard]] serve::Response hear(const serve::Request& request, Clock::time_point now);
-  [[nodiscard]] serve::Response list() const;
-  [[nodiscard]] serve::Response picture(const serve::Request& request, Clock::time_point now);
-  [[nodiscard]] serve::Response say(const serve::Request& request);
+  [[nodiscard]] net::Response hear(const net::Request& request, Clock::time_point now);
+  [[nodiscard]] net::Response list() const;
+  [[nodiscard]] net::Response picture(const net::Request& request, Clock::time_point now);
+  [[nodiscard]] net::Response say(const net::Request& request);
 
   std::map<std::string, Station> stations_;
   std::uint64_t last_message_ = 0;

@@ -12,8 +12,8 @@
 #include "burr/phantom/build.h"
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
 #include "verify.h"
 #include "workbench.h"
 

@@ -8,9 +8,9 @@
 #include "burr/haptics/force_law.h"
 #include "burr/phantom/build.h"
 #include "burr/tick/touch_methods.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
 #include "scenes/strokes.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
 #include "verify.h"
 
 namespace burr::app {

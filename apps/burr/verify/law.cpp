@@ -13,11 +13,11 @@
 
 #include "burr/workshop/law_file.h"
 #include "burr/workshop/sha256.h"
-#include "commands/command.h"
 #include "doctor/run_in_process.h"
 #include "law_trial.h"
 #include "page.h"
 #include "report.h"
+#include "shared/command.h"
 
 namespace burr::app {
 namespace {

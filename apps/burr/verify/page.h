@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "commands/html_page.h"
 #include "report.h"
+#include "shared/html_page.h"
 
 namespace burr::app {
 

@@ -10,8 +10,8 @@
 #include "burr/surgeon/motion.h"
 #include "burr/volume/sample.h"
 #include "burr/workshop/open_bone.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
 #include "verify.h"
 #include "workbench.h"
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/new_file.h"
-#include "commands/json_line.h"
+#include "shared/json_line.h"
 
 namespace burr::app {
 namespace {

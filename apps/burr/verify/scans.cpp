@@ -15,9 +15,9 @@
 #include "burr/surface/mesher.h"
 #include "burr/surface/shells.h"
 #include "burr/workshop/open_bone.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
 #include "scenes/thin_shapes.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
 #include "verify.h"
 
 namespace burr::app {

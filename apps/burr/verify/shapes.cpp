@@ -14,8 +14,8 @@
 #include "burr/math/rotation.h"
 #include "burr/math/turn.h"
 #include "burr/phantom/build.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
 #include "verify.h"
 
 namespace burr::app {

@@ -17,10 +17,10 @@
 #include <tuple>
 
 #include "batch/row_command.h"
-#include "commands/command.h"
-#include "commands/interrupt.h"
 #include "law.h"
 #include "page.h"
+#include "shared/command.h"
+#include "shared/interrupt.h"
 
 namespace burr::app {
 namespace {

@@ -5,7 +5,7 @@
 //
 // A file is known by device and inode, so links and other spellings of its name are seen through.
 // NewFile calls check_not_input(), therefore no writer can forget it. Commands check earlier,
-// before the work (apps/burr/commands/outputs.h). Thread: any; takes a lock, not for the 1 kHz
+// before the work (apps/burr/shared/outputs.h). Thread: any; takes a lock, not for the 1 kHz
 // path.
 #pragma once
 

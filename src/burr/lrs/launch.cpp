@@ -16,7 +16,7 @@
 
 #include "burr/base/new_file.h"
 #include "burr/base/printable.h"
-#include "burr/http/client.h"
+#include "burr/net/client.h"
 #include "burr/school/statements.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
@@ -38,7 +38,7 @@ std::map<std::string, std::string> query_of(const std::string& url) {
     const std::size_t end = std::min(url.find_first_of("&#", at + 1), url.size());
     const std::string one = url.substr(at + 1, end - at - 1);
     const std::size_t equals = std::min(one.find('='), one.size());
-    out[one.substr(0, equals)] = http::unescaped(one.substr(std::min(equals + 1, one.size())));
+    out[one.substr(0, equals)] = net::unescaped(one.substr(std::min(equals + 1, one.size())));
     at = end < url.size() && url[end] == '&' ? end : std::string::npos;
   }
   return out;
@@ -49,7 +49,7 @@ bool is_uuid(const std::string& text) {
          text[23] == '-' && text.find_first_not_of("0123456789abcdefABCDEF-") == std::string::npos;
 }
 
-Error refuses(const char* what, const http::Answer& answer) {
+Error refuses(const char* what, const net::Answer& answer) {
   return error(Trouble::io, fmt::format("--cmi5: {}: the learning management system answers {}: {}",
                                         what, answer.status, base::printable(answer.body, 200)));
 }
@@ -66,15 +66,15 @@ struct Post {
   std::string endpoint, token;
   double wait_s = 15;
 
-  [[nodiscard]] Result<http::Answer> ask(const char* method, const std::string& path,
-                                         const std::string& body) const {
-    return http::ask({method,
-                      endpoint + path,
-                      {{"Authorization", "Basic " + token},
-                       {"X-Experience-API-Version", "1.0.3"},
-                       {"Content-Type", "application/json"}},
-                      body,
-                      wait_s});
+  [[nodiscard]] Result<net::Answer> ask(const char* method, const std::string& path,
+                                        const std::string& body) const {
+    return net::ask({method,
+                     endpoint + path,
+                     {{"Authorization", "Basic " + token},
+                      {"X-Experience-API-Version", "1.0.3"},
+                      {"Content-Type", "application/json"}},
+                     body,
+                     wait_s});
   }
 
   struct Heard {
@@ -136,8 +136,8 @@ struct Launch::Parts {
   bool normal = true;
   std::int64_t last_ms = 0;
 
-  [[nodiscard]] Result<http::Answer> ask(const char* method, const std::string& path,
-                                         const std::string& body) const {
+  [[nodiscard]] Result<net::Answer> ask(const char* method, const std::string& path,
+                                        const std::string& body) const {
     return post.ask(method, path, body);
   }
 
@@ -170,7 +170,7 @@ struct Launch::Parts {
   }
 
   [[nodiscard]] Status fetch(const std::string& url) {
-    const auto answer = http::ask({"POST", url, {}, "", post.wait_s});
+    const auto answer = net::ask({"POST", url, {}, "", post.wait_s});
     if (!answer) return answer.error();
     const Json read = Json::parse(answer->body, nullptr, false);
     if (answer->status != 200 || !read.is_object() || !read.contains("auth-token") ||
@@ -192,10 +192,10 @@ struct Launch::Parts {
   }
 
   [[nodiscard]] Status read_launch_data() {
-    const std::string who = "agent=" + http::escaped(actor.dump());
+    const std::string who = "agent=" + net::escaped(actor.dump());
     const auto state =
         ask("GET",
-            "/activities/state?stateId=LMS.LaunchData&activityId=" + http::escaped(activity) +
+            "/activities/state?stateId=LMS.LaunchData&activityId=" + net::escaped(activity) +
                 "&registration=" + registration + "&" + who,
             "");
     if (!state) return state.error();
@@ -241,7 +241,7 @@ Result<std::unique_ptr<Launch>> Launch::begin(const std::string& url, double wai
   if (!is_uuid(parts->registration))
     return error(Trouble::usage, "--cmi5: registration is no UUID");
   for (const std::string& one : {endpoint, query["fetch"]})
-    if (const auto good = http::parse_url(one); !good)
+    if (const auto good = net::parse_url(one); !good)
       return error(Trouble::usage, "--cmi5: " + good.error().text);
   if (const Status done = parts->fetch(query["fetch"]); !done) return done.error();
   if (const Status done = parts->read_launch_data(); !done) return done.error();

@@ -15,7 +15,7 @@
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/base/trimmed.h"
-#include "burr/http/client.h"
+#include "burr/net/client.h"
 #include "burr/school/outbox.h"
 
 namespace burr::lrs {
@@ -33,7 +33,7 @@ std::string environment(const char* name) {
 
 Result<Lrs> lrs_of(std::string endpoint, const std::string& key, const std::string& where) {
   while (!endpoint.empty() && endpoint.back() == '/') endpoint.pop_back();
-  if (const auto url = http::parse_url(endpoint); !url)
+  if (const auto url = net::parse_url(endpoint); !url)
     return error(Trouble::usage, fmt::format("{}: the endpoint: {}", where, url.error().text));
   const bool plain = std::none_of(key.begin(), key.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
@@ -56,7 +56,7 @@ std::vector<std::string> ids_of(std::span<const Waiter> rows) {
 }
 
 // "400: the first words of what it said"
-std::string sentence_of(const http::Answer& answer) {
+std::string sentence_of(const net::Answer& answer) {
   std::string said = answer.body;
   const Json read = Json::parse(answer.body, nullptr, false);
   if (read.is_object())
@@ -68,7 +68,7 @@ std::string sentence_of(const http::Answer& answer) {
 }
 
 // When it may be tried again  [ms]; 0: the server does not say. Seconds, or a date.
-std::int64_t retry_after(const http::Answer& answer, std::int64_t now) {
+std::int64_t retry_after(const net::Answer& answer, std::int64_t now) {
   const auto found = answer.fields.find("retry-after");
   if (found == answer.fields.end()) return 0;
   constexpr std::int64_t kMost =
@@ -101,8 +101,8 @@ class Pass {
   }
 
  private:
-  Result<http::Answer> ask(const char* method, const std::string& path, std::string body) {
-    return http::ask({method, lrs_.endpoint + path, fields(lrs_), std::move(body), ways_.wait_s});
+  Result<net::Answer> ask(const char* method, const std::string& path, std::string body) {
+    return net::ask({method, lrs_.endpoint + path, fields(lrs_), std::move(body), ways_.wait_s});
   }
 
   Status deliver(std::span<const Waiter> rows) {
@@ -269,7 +269,7 @@ Result<Sent> send_due(Store& store, const Lrs& lrs, const Ways& ways) {
 }
 
 Result<std::string> about(const Lrs& lrs) {
-  const auto answer = http::ask({"GET", lrs.endpoint + "/about", fields(lrs), "", 15});
+  const auto answer = net::ask({"GET", lrs.endpoint + "/about", fields(lrs), "", 15});
   if (!answer) return answer.error();
   const Json read = Json::parse(answer->body, nullptr, false);
   if (answer->status != 200 || !read.is_object() || !read.contains("version") ||
@@ -284,7 +284,7 @@ Result<std::string> about(const Lrs& lrs) {
   }
   if (!known) return error(Trouble::failed, fmt::format("it speaks xAPI {}, burr 1.0.3", versions));
   // it may answer that without the key
-  const auto keyed = http::ask({"GET", lrs.endpoint + "/statements?limit=1", fields(lrs), "", 15});
+  const auto keyed = net::ask({"GET", lrs.endpoint + "/statements?limit=1", fields(lrs), "", 15});
   if (!keyed) return keyed.error();
   if (keyed->status != 200 && keyed->status != 403)  // a key may write and not read
     return error(Trouble::failed,

@@ -63,7 +63,7 @@ export class Watch {
     this.show();
   }
 
-  // As the strip of the window (window/mill/hud.cpp).
+  // As the strip of the window (window/parts/hud.cpp).
   show() {
     const {found, allowed} = this;
     $('near').hidden = !allowed?.distance;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "shared/words.h"
 #include "window/import/import_page.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

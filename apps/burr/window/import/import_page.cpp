@@ -10,10 +10,10 @@
 #include <system_error>
 #include <utility>
 
-#include "commands/interrupt.h"
-#include "commands/work.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
+#include "shared/work.h"
 #include "window/import/series_page.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

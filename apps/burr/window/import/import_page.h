@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "commands/work.h"
+#include "shared/make_ready.h"
+#include "shared/work.h"
 #include "window/import/import_choice.h"
 #include "window/import/import_preview.h"
-#include "window/mill/make_ready.h"
-#include "window/shell/desk.h"
-#include "window/shell/loading.h"
-#include "window/shell/texture.h"
+#include "window/ui/desk.h"
+#include "window/ui/loading.h"
+#include "window/ui/texture.h"
 
 namespace burr::app {
 

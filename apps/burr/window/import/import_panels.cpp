@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "shared/words.h"
 #include "window/import/import_page.h"
 #include "window/import/notice_words.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "burr/words/words.h"
 #include "window/import/import_page.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <utility>
 
-#include "commands/interrupt.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
 #include "window/import/import_preview.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

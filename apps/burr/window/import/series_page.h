@@ -14,9 +14,9 @@
 
 #include "burr/render/image.h"
 #include "window/import/import_choice.h"
-#include "window/shell/desk.h"
-#include "window/shell/loading.h"
-#include "window/shell/texture.h"
+#include "window/ui/desk.h"
+#include "window/ui/loading.h"
+#include "window/ui/texture.h"
 
 namespace burr::app {
 

@@ -1,6 +1,6 @@
 #include "window/mill/cross_button.h"
 
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

@@ -3,7 +3,7 @@
 // Thread: main, between Ui::begin() and draw().
 #pragma once
 
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

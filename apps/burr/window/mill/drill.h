@@ -12,7 +12,7 @@
 #include "burr/render/scene.h"
 #include "burr/scenario/rack.h"
 #include "burr/sim/session.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "window/mill/hud.h"
-#include "window/mill/measuring.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
+#include "window/parts/hud.h"
+#include "window/parts/measuring.h"
 
 namespace burr::app {
 

@@ -11,7 +11,7 @@
 
 #include "burr/math/vec3.h"
 #include "burr/render/camera.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

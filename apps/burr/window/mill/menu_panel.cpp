@@ -1,8 +1,8 @@
 #include "window/mill/menu_panel.h"
 
+#include "shared/words.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/titled_panel.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 

@@ -22,22 +22,23 @@
 #include <string>
 #include <vector>
 
+#include "burr/guidance/injury.h"
+#include "burr/guidance/step_watch.h"
+#include "burr/guidance/steps.h"
+#include "burr/guidance/technique.h"
+#include "burr/mouse/grip.h"
+#include "burr/mouse/mouse_aim.h"
+#include "burr/mouse/mouse_hand.h"
 #include "burr/render/held_tool.h"
 #include "burr/sim/session.h"
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/tool_looks.h"
-#include "window/hands/grip.h"
-#include "window/hands/mouse_aim.h"
-#include "window/hands/mouse_hand.h"
+#include "shared/words.h"
 #include "window/mill/drill.h"
 #include "window/mill/hand_plane.h"
-#include "window/mill/hud.h"
-#include "window/mill/injury.h"
 #include "window/mill/instructor_notes.h"
-#include "window/mill/measuring.h"
 #include "window/mill/menu_panel.h"
-#include "window/mill/mirror_mode.h"
 #include "window/mill/orientation_cube.h"
 #include "window/mill/over_pages.h"
 #include "window/mill/piece_mode.h"
@@ -46,23 +47,22 @@
 #include "window/mill/press.h"
 #include "window/mill/saved_views.h"
 #include "window/mill/side_panel.h"
-#include "window/mill/slices.h"
 #include "window/mill/step_light.h"
-#include "window/mill/step_watch.h"
-#include "window/mill/steps.h"
 #include "window/mill/structures.h"
 #include "window/mill/suction_tube.h"
-#include "window/mill/technique.h"
 #include "window/mill/tick_watch.h"
 #include "window/mill/tool_rack.h"
-#include "window/mill/toolbar.h"
 #include "window/mill/views.h"
 #include "window/mill/window_options.h"
 #include "window/mill/worn_headset.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/desk.h"
-#include "window/shell/help.h"
-#include "window/shell/status_line.h"
+#include "window/parts/hud.h"
+#include "window/parts/measuring.h"
+#include "window/parts/mirror_mode.h"
+#include "window/parts/slices.h"
+#include "window/parts/toolbar.h"
+#include "window/ui/desk.h"
+#include "window/ui/help.h"
+#include "window/ui/status_line.h"
 
 namespace burr::app {
 
@@ -70,7 +70,7 @@ struct KeyReach;  // mill_keys.h
 
 class Mill {
  public:
-  Mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,
+  Mill(Desk& desk, sim::Session& session, const mouse::Hands& hands, surface::Worker& worker,
        render::Scene& scene, const WindowOptions& options)
       : desk_(desk),
         session_(session),
@@ -89,7 +89,7 @@ class Mill {
         looks_(session.settings().servo.tools) {
     grip_.take(rack_.tool(drill_.tool()));
     aim_.hold(&grip_);
-    if (options_.lesson) steps_ = Steps(options_.lesson->steps);
+    if (options_.lesson) steps_ = guidance::Steps(options_.lesson->steps);
     take_titles_of(options_.lesson ? &*options_.lesson : nullptr);
   }
 
@@ -255,7 +255,7 @@ class Mill {
   void say_refused();
   void begin_steps();
   void look_at_measure();
-  void tell(const Steps::Events& events);
+  void tell(const guidance::Steps::Events& events);
   void step_done();
   void light_target();
   void look_at_technique();
@@ -300,7 +300,7 @@ class Mill {
 
   Desk& desk_;
   sim::Session& session_;
-  Hands hands_;
+  mouse::Hands hands_;
   surface::Worker& worker_;
   render::Scene& scene_;
   WindowOptions options_;
@@ -316,16 +316,16 @@ class Mill {
   std::optional<SavedViews> saved_views_;
   Leaf leaf_ = Leaf::task;  // of the panel beside the tools
   bool task_read_ = false;  // bone has been removed
-  Steps steps_;
-  std::optional<StepWatch> watch_;             // made by begin(), before the session starts
+  guidance::Steps steps_;
+  std::optional<guidance::StepWatch> watch_;   // made by begin(), before the session starts
   std::optional<PieceMode> pieces_;            // likewise
   std::optional<tick::ToolMode> mode_before_;  // of the tool, while a piece is taken by a real hand
   bool steps_begun_ = false;
   std::string lit_step_;       // whose target is lit, or was lit last
   double removed_before_ = 0;  // up to the picture before [m^3]
   StepLight light_;
-  Technique technique_;
-  Technique::Cue cue_ = Technique::Cue::none;
+  guidance::Technique technique_;
+  guidance::Technique::Cue cue_ = guidance::Technique::Cue::none;
   bool slices_shown_ = true, labels_ = true, pulls_window_ = false;
   std::vector<render::Colour> colours_;    // of the tissues, while labels are shown
   std::optional<Structures> structures_;   // made by begin(), before the session starts
@@ -356,7 +356,7 @@ class Mill {
   bool pad_lifts_ = false;
   int hands_there_ = -1;
   Clock::time_point hands_taken_{};
-  MouseAim aim_;
+  mouse::MouseAim aim_;
   SuctionTube tube_;
 
   // the work
@@ -364,7 +364,7 @@ class Mill {
   MirrorMode mirror_;
   Drill drill_;
   ToolRack rack_;
-  Grip grip_;
+  mouse::Grip grip_;
   std::vector<math::Vec3> places_;  // on the cutting parts of the tool `placed_` [m]
   int placed_ = -1;
   workshop::ToolLooks looks_;  // of tools other than the round burr
@@ -376,7 +376,7 @@ class Mill {
   TickWatch ticks_;
   std::optional<HudState::Nearest> nearest_;
   std::string near_;  // the structure that the user is warned of; empty: none
-  InjuryWatch injury_;
+  guidance::InjuryWatch injury_;
   StatusLine status_;
   std::string note_, warning_;  // as shown
   Clock::time_point said_{};

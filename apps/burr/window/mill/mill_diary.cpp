@@ -2,8 +2,8 @@
 #include "burr/record/diary.h"
 #include "burr/render/stereo.h"
 #include "burr/workshop/seen.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

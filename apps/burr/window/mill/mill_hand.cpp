@@ -10,9 +10,9 @@
 
 #include "burr/render/pick.h"
 #include "burr/workshop/work_view.h"
-#include "window/mill/make_ready.h"
+#include "shared/make_ready.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {
@@ -381,7 +381,7 @@ void Mill::point() {
   pointer_.measure_window();
   const render::Ray ray = pointer_.aim();
   if (plane_.on()) return point_in_plane(ray);
-  std::optional<MouseAim::Push> push;
+  std::optional<mouse::MouseAim::Push> push;
   if (pressing()) push = {press_.depth(), press_.spindle()};
   hands_.mouse->aim(aim_.at(scene_, ray, push, desk_.settings.left_handed));
 }

@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "shared/words.h"
 #include "window/mill/mill.h"
-#include "window/shell/printed_keys.h"
-#include "window/shell/words.h"
+#include "window/ui/printed_keys.h"
 
 namespace burr::app {
 

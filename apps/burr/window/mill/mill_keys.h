@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "window/mill/toolbar.h"
-#include "window/shell/help.h"
+#include "window/parts/toolbar.h"
+#include "window/ui/help.h"
 
 namespace burr::app {
 

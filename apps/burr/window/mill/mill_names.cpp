@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "shared/words.h"
 #include "window/mill/mill.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/task_panel.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 

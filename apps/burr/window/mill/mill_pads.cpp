@@ -7,8 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "shared/words.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

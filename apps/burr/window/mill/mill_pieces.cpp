@@ -5,8 +5,8 @@
 
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/suction_hand.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 

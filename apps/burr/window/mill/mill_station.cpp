@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "burr/render/pick.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
 #include "window/station/station_link.h"
 
 namespace burr::app {

@@ -14,11 +14,10 @@
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/fault_file.h"
 #include "burr/workshop/work_view.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
 #include "window/mill/steps_panel.h"
 #include "window/mill/views_bar.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {
@@ -216,7 +215,7 @@ HudState Mill::hud() const {
     s.mirror = mirror_words(session_.bone().grid(), mirror);
   s.note = note_.empty() ? measuring_.words() : note_;
   s.note_stays = status_.kept() && !note_.empty();
-  if (s.note.empty() && cue_ != Technique::Cue::none) s.note = cue_text();
+  if (s.note.empty() && cue_ != guidance::Technique::Cue::none) s.note = cue_text();
   s.warning = warning_;
   return s;
 }

@@ -3,14 +3,13 @@
 #include <string>
 #include <utility>
 
+#include "burr/guidance/suits.h"
 #include "burr/record/diary.h"
 #include "burr/record/private_text.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
-#include "window/mill/see_through.h"
 #include "window/mill/steps_panel.h"
-#include "window/mill/suits.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "window/parts/see_through.h"
 
 namespace burr::app {
 
@@ -83,11 +82,11 @@ void Mill::step_opacity(bool back) {
   note(step_see_through(scene_, back));
 }
 
-void Mill::tell(const Steps::Events& events) {
+void Mill::tell(const guidance::Steps::Events& events) {
   if (events.empty()) return;
   if (light_.is_on()) light_target();  // it was the target of another step
   if (options_.diary == nullptr) return;
-  for (const Steps::Event& one : events)
+  for (const guidance::Steps::Event& one : events)
     static_cast<void>(options_.diary->note({row_.tick, one.kind, one.what, {}, one.value}));
 }
 
@@ -139,9 +138,9 @@ void Mill::light_target() {
 }
 
 void Mill::look_at_technique() {
-  cue_ = Technique::Cue::none;
+  cue_ = guidance::Technique::Cue::none;
   if (!options_.allowed.technique || !ticks_.begun()) return;
-  Technique::Moment now;
+  guidance::Technique::Moment now;
   now.t = static_cast<double>(row_.tick) / session_.settings().servo.rate_hz;
   now.cutting = row_.contact.touching && row_.spindle_rad_s != 0 &&
                 row_.ledger.removed > std::exchange(removed_before_, row_.ledger.removed);
@@ -153,7 +152,7 @@ void Mill::look_at_technique() {
   cue_ = technique_.look(now, steps_.now());
   if (technique_.fresh() && options_.diary != nullptr)
     static_cast<void>(options_.diary->note(
-        {row_.tick, record::CourseKind::help_shown, "technique", Technique::name(cue_)}));
+        {row_.tick, record::CourseKind::help_shown, "technique", guidance::Technique::name(cue_)}));
 }
 
 // A turning burr in what must not be cut. The message comes once, and again only after the burr was out of it. No flash: it
@@ -181,14 +180,15 @@ void Mill::look_at_injury() {
 
 std::string Mill::cue_text() const {
   switch (cue_) {
-    case Technique::Cue::none:
+    case guidance::Technique::Cue::none:
       break;
-    case Technique::Cue::gentler:
+    case guidance::Technique::Cue::gentler:
       return word(Word::cue_gentler);
-    case Technique::Cue::kind:
-    case Technique::Cue::larger:
-    case Technique::Cue::smaller:
-      return steps_.now() != nullptr ? say(Word::cue_tool, suits(*steps_.now())) : std::string();
+    case guidance::Technique::Cue::kind:
+    case guidance::Technique::Cue::larger:
+    case guidance::Technique::Cue::smaller:
+      return steps_.now() != nullptr ? say(Word::cue_tool, guidance::suits(*steps_.now()))
+                                     : std::string();
   }
   return {};
 }

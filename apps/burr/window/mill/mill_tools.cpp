@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "burr/workshop/tool_places.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
 #include "window/mill/rack_panel.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

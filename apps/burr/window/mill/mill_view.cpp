@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "burr/words/words.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

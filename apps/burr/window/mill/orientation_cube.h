@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "burr/render/camera.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

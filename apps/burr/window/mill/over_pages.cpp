@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "window/shell/help.h"
+#include "window/ui/help.h"
 
 namespace burr::app {
 

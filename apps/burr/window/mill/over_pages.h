@@ -10,10 +10,10 @@
 
 #include "burr/render/scene.h"
 #include "burr/sim/session.h"
-#include "window/mill/export_page.h"
 #include "window/mill/window_options.h"
-#include "window/shell/help.h"
-#include "window/shell/settings_page.h"
+#include "window/parts/export_page.h"
+#include "window/ui/help.h"
+#include "window/ui/settings_page.h"
 
 namespace burr::app {
 

@@ -11,7 +11,7 @@
 
 #include "burr/math/turn.h"
 #include "burr/rt/flags.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

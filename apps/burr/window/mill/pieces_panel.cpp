@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "shared/words.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/titled_panel.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

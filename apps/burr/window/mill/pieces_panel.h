@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

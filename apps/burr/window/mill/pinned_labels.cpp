@@ -5,7 +5,7 @@
 #include <numeric>
 #include <optional>
 
-#include "window/mill/measuring.h"
+#include "window/parts/measuring.h"
 
 namespace burr::app {
 namespace {

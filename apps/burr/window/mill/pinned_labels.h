@@ -10,7 +10,7 @@
 
 #include "burr/render/camera.h"
 #include "burr/volume/tissue.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

@@ -6,7 +6,7 @@
 
 #include "burr/render/pick.h"
 #include "burr/render/scene.h"
-#include "window/shell/desk.h"
+#include "window/ui/desk.h"
 
 namespace burr::app {
 

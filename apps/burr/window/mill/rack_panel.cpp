@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "window/mill/hud.h"
+#include "shared/words.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/titled_panel.h"
-#include "window/shell/words.h"
+#include "window/parts/hud.h"
 
 namespace burr::app {
 namespace {

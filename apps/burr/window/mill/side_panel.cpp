@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string>
 
+#include "shared/words.h"
 #include "window/mill/cross_button.h"
-#include "window/mill/hud.h"
-#include "window/shell/words.h"
+#include "window/parts/hud.h"
 
 namespace burr::app {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "window/mill/pinned_labels.h"
 #include "window/mill/structures.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

@@ -4,21 +4,22 @@
 #include <cmath>
 #include <optional>
 
-#include "window/mill/measuring.h"
-#include "window/shell/anatomy.h"
+#include "shared/words.h"
+#include "window/parts/measuring.h"
 
 namespace burr::app {
 namespace {
 
-constexpr render::Colour kLit = {kLitColour[0], kLitColour[1], kLitColour[2]};
+constexpr render::Colour kLit = {guidance::kLitColour[0], guidance::kLitColour[1],
+                                 guidance::kLitColour[2]};
 }  // namespace
 
 void StepLight::on(const scenario::Step& step, const scenario::Lesson& lesson,
                    const volume::TissueTable& tissues, render::Scene& scene) {
   off(scene);
   on_ = true;
-  rings_ = rings_of(step, lesson);
-  for (const volume::TissueId id : lit_tissues(step, lesson, tissues))
+  rings_ = guidance::rings_of(step, lesson);
+  for (const volume::TissueId id : guidance::lit_tissues(step, lesson, tissues))
     if (id < scene.tissue_colours.size()) {
       colours_.emplace_back(id, scene.tissue_colours[id]);
       scene.tissue_colours[id] = kLit;
@@ -37,7 +38,7 @@ void StepLight::draw(const Ui& ui, const render::Camera& camera) const {
   const float u = ui.unit();
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   constexpr ImU32 kRing = ink::rgb(90, 240, 115), kShade = ink::rgb(0, 0, 0, 150);
-  for (const Ring& ring : rings_) {
+  for (const guidance::Ring& ring : rings_) {
     const auto middle = on_picture(camera, ring.at, ui.width(), ui.height());
     const auto edge =
         on_picture(camera, ring.at + ring.radius * camera.right(), ui.width(), ui.height());

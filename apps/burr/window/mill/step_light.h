@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "burr/guidance/step_rings.h"
 #include "burr/render/scene.h"
 #include "burr/scenario/lesson.h"
 #include "burr/volume/tissue.h"
-#include "window/mill/step_rings.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 
@@ -29,7 +29,7 @@ class StepLight {
 
  private:
   bool on_ = false;
-  std::vector<Ring> rings_;
+  std::vector<guidance::Ring> rings_;
   std::vector<std::pair<std::size_t, render::Colour>> colours_;  // of tissues, before
 };
 

@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "window/mill/hud.h"
+#include "burr/guidance/suits.h"
+#include "shared/words.h"
 #include "window/mill/side_panel.h"
-#include "window/mill/suits.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "window/parts/hud.h"
 
 namespace burr::app {
 namespace {
@@ -30,14 +29,14 @@ const std::string& title_of(const scenario::Step& step) {
   return title.empty() ? step.id : title;
 }
 
-std::vector<Paragraph> paragraphs(const Steps& steps) {
+std::vector<Paragraph> paragraphs(const guidance::Steps& steps) {
   const scenario::Step* now = steps.now();
   if (now == nullptr) return {{Letter::strong, ink::kGood, word(Word::steps_all_done)}};
   std::vector<Paragraph> all = {
       {Letter::small, ink::kDim, say(Word::steps_count, *steps.current() + 1, steps.size())},
       {Letter::strong, ink::kAccent, title_of(*now)},
       {Letter::body, ink::kText, now->say.in(spoken().code)}};
-  if (const std::string tool = suits(*now); !tool.empty())
+  if (const std::string tool = guidance::suits(*now); !tool.empty())
     all.push_back({Letter::body, ink::kDim, say(Word::steps_tool, tool)});
   if (!now->spare.empty())
     all.push_back({Letter::body, ink::kWarn, say(Word::task_spare, anatomy_list(now->spare))});
@@ -45,7 +44,7 @@ std::vector<Paragraph> paragraphs(const Steps& steps) {
 }
 
 // Which rows are shown where not all fit: the current one in their middle.
-std::size_t first_row(const Steps& steps, std::size_t shown) {
+std::size_t first_row(const guidance::Steps& steps, std::size_t shown) {
   const std::size_t current = steps.current().value_or(0);
   const std::size_t half = shown / 2;
   return std::min(current > half ? current - half : 0, steps.size() - shown);
@@ -65,7 +64,8 @@ void mark(ImDrawList& draw, ImVec2 at, float u, bool done, bool current) {
 }
 
 // The rows of the list; the one that was pressed.
-std::optional<std::size_t> rows(Ui& ui, const Steps& steps, float x, float y, std::size_t shown) {
+std::optional<std::size_t> rows(Ui& ui, const guidance::Steps& steps, float x, float y,
+                                std::size_t shown) {
   const float u = ui.unit(), wide = (kWide - 2 * kPadding) * u;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   std::optional<std::size_t> pressed;
@@ -91,7 +91,7 @@ std::optional<std::size_t> rows(Ui& ui, const Steps& steps, float x, float y, st
 
 }  // namespace
 
-StepsPressed draw_steps(Ui& ui, const Steps& steps, bool offers_light, bool lit) {
+StepsPressed draw_steps(Ui& ui, const guidance::Steps& steps, bool offers_light, bool lit) {
   StepsPressed pressed;
   const float u = ui.unit(), inside = (kWide - 2 * kPadding) * u, gap = 6 * u;
   const float x = kSideLeft * u, y = kSideLeafTop * u,

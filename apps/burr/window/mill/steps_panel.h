@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "window/mill/steps.h"
-#include "window/shell/ui.h"
+#include "burr/guidance/steps.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 
@@ -19,7 +19,8 @@ struct StepsPressed {
 };
 
 // offers_light: there is a button for it. lit: it is lit now.
-[[nodiscard]] StepsPressed draw_steps(Ui& ui, const Steps& steps, bool offers_light, bool lit);
+[[nodiscard]] StepsPressed draw_steps(Ui& ui, const guidance::Steps& steps, bool offers_light,
+                                      bool lit);
 
 // The button with which the user declares the work done, at the top right. column: width at the right
 // that slices cover [pixel]. True: it was pressed.

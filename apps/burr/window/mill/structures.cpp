@@ -4,7 +4,7 @@
 #include <array>
 
 #include "burr/render/unseen.h"
-#include "window/shell/anatomy.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "burr/workshop/second_tool.h"
-#include "window/mill/make_ready.h"
+#include "shared/make_ready.h"
 
 namespace burr::app {
 

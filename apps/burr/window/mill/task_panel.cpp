@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "window/mill/hud.h"
+#include "shared/words.h"
 #include "window/mill/side_panel.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "window/parts/hud.h"
 
 namespace burr::app {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "burr/scenario/case.h"
 #include "burr/scenario/lesson.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

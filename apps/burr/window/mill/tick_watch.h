@@ -11,7 +11,7 @@
 
 #include "burr/rt/stats.h"
 #include "burr/tick/servo.h"
-#include "window/mill/hud.h"
+#include "window/parts/hud.h"
 
 namespace burr::app {
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

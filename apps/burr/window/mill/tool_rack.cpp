@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "burr/workshop/tool_picture.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

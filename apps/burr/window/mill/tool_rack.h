@@ -12,7 +12,7 @@
 #include "burr/render/renderer.h"
 #include "burr/scenario/rack.h"
 #include "window/mill/rack_panel.h"
-#include "window/shell/texture.h"
+#include "window/ui/texture.h"
 
 namespace burr::app {
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "burr/render/microscope.h"
-#include "window/mill/hud.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
+#include "window/parts/hud.h"
 
 namespace burr::app {
 namespace {

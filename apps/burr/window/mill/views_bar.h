@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "window/mill/views.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

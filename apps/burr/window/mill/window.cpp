@@ -10,9 +10,9 @@
 #include "burr/render/picture.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/work_view.h"
-#include "commands/interrupt.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 
@@ -156,12 +156,12 @@ void Mill::end(workshop::LiveSurface& live) {
   worker_.settle([this](const surface::Skin& skin) { workshop::put_skin(scene_, skin); });
 }
 
-Result<Closed> mill(Desk& desk, sim::Session& session, const Hands& hands, surface::Worker& worker,
-                    render::Scene& scene, const WindowOptions& options) {
+Result<Closed> mill(Desk& desk, sim::Session& session, const mouse::Hands& hands,
+                    surface::Worker& worker, render::Scene& scene, const WindowOptions& options) {
   return Mill(desk, session, hands, worker, scene, options).run();
 }
 
-Status run_window(sim::Session& session, const Hands& hands, surface::Worker& worker,
+Status run_window(sim::Session& session, const mouse::Hands& hands, surface::Worker& worker,
                   render::Scene& scene, const WindowOptions& options) {
   auto desk = Desk::open({});
   if (!desk) return desk.error();

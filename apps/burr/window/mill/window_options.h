@@ -1,5 +1,4 @@
-// apps/burr/window/mill/window_options.h - the options of the page for milling, and how the user
-// left it.
+// apps/burr/window/mill/window_options.h - the options of the page for milling.
 #pragma once
 
 #include <functional>
@@ -15,9 +14,10 @@
 #include "burr/volume/greys.h"
 #include "burr/workshop/allowed.h"
 #include "burr/workshop/spared_distance.h"
-#include "commands/work.h"
+#include "shared/work.h"
 #include "window/mill/loudspeaker.h"
-#include "window/replay/film_job.h"
+#include "window/parts/film_job.h"
+#include "window/ui/closed.h"
 
 namespace burr::app {
 
@@ -46,14 +46,6 @@ struct WindowOptions {
       workshop::allowed_in(record::Mode::free, {}, true);
   bool done_ends = false;          // to declare the work done ends the session; marks follow
   record::Diary* diary = nullptr;  // of the recording; nullptr: it is not recorded
-};
-
-// How the user left the page.
-enum class Closed {
-  page,    // the user left this bone
-  done,    // the user declared the work done, and this ended it
-  again,   // the user wants to do the case again
-  window,  // the user left burr, or the time is over
 };
 
 }  // namespace burr::app

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 
@@ -66,11 +66,12 @@ void WornHeadset::end(const render::Scene& scene) {
   if (seen_ && desk_.headset != nullptr) desk_.headset->end(scene, cameras_);
 }
 
-std::optional<MouseHand::Aim> WornHeadset::aim(const render::Camera& camera, bool rests) const {
+std::optional<mouse::MouseHand::Aim> WornHeadset::aim(const render::Camera& camera,
+                                                      bool rests) const {
   if (!seen_) return std::nullopt;
-  MouseHand::Aim aim;
+  mouse::MouseHand::Aim aim;
   aim.valid = wand_at_.tracked;
-  aim.pace = MouseHand::kWandPace;
+  aim.pace = mouse::MouseHand::kWandPace;
   aim.pedal = rests ? 0 : wand_at_.trigger;
   if (aim.valid) aim.world_from_tool = render::placed(camera, wand_at_.room_from_wand);
   return aim;

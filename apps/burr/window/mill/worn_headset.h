@@ -8,12 +8,12 @@
 #include <optional>
 #include <string>
 
+#include "burr/mouse/mouse_hand.h"
 #include "burr/render/camera.h"
 #include "burr/render/governor.h"
 #include "burr/render/headset.h"
 #include "burr/render/scene.h"
-#include "window/hands/mouse_hand.h"
-#include "window/shell/desk.h"
+#include "window/ui/desk.h"
 
 namespace burr::app {
 
@@ -37,7 +37,8 @@ class WornHeadset {
   // The aim of the hand: the end of the wand is the head of the burr, its back is the handle. none:
   // nothing was seen in this frame. A wand that is not tracked gives an invalid aim, which the
   // servo judges.
-  [[nodiscard]] std::optional<MouseHand::Aim> aim(const render::Camera& camera, bool rests) const;
+  [[nodiscard]] std::optional<mouse::MouseHand::Aim> aim(const render::Camera& camera,
+                                                         bool rests) const;
 
  private:
   std::string look_for_it();

@@ -3,15 +3,15 @@
 #include <utility>
 
 #include "burr/render/bone_scene.h"
+#include "burr/report/piece_words.h"
+#include "burr/report/scored.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/recording.h"
-#include "commands/piece_words.h"
-#include "report/scored.h"
 
 namespace burr::app {
 
-render::Image ProductBone::section(const ProductView& view) {
-  render::Image image{2 * kViewWide, 2 * kViewHigh, {}};
+render::Image ProductBone::section(const report::ProductView& view) {
+  render::Image image{2 * report::kViewWide, 2 * report::kViewHigh, {}};
   while (!slicer->draw(*view.slice, image)) {
   }
   return image;
@@ -22,7 +22,7 @@ Result<ProductBone> open_product(const std::string& recording, Progress& progres
   const auto hidden = [](const Error& why, const char* sentence) {
     return why.trouble == Trouble::interrupted ? why : error(why.trouble, sentence);
   };
-  auto judged = judged_by(recording, "");
+  auto judged = report::judged_by(recording, "");
   if (!judged) return hidden(judged.error(), "the recording of this session cannot be read");
   record::Player& player = *judged->player;
   auto before = workshop::bone_of(player, {}, progress);
@@ -30,10 +30,11 @@ Result<ProductBone> open_product(const std::string& recording, Progress& progres
   ProductBone out;
   out.bone = volume::copy_of(**before);
   // at the end, with moved pieces as they lie
-  if (const auto moved = moved_pieces_of(player, *out.bone, &judged->lesson); !moved)
+  if (const auto moved = report::moved_pieces_of(player, *out.bone, &judged->lesson); !moved)
     return hidden(moved.error(), "the recording of this session cannot be read");
-  out.views = product_views(removed_box(**before, *out.bone),
-                            towards_surgeon(judged->lesson, judged->work), judged->work.at);
+  out.views =
+      report::product_views(report::removed_box(**before, *out.bone),
+                            report::towards_surgeon(judged->lesson, judged->work), judged->work.at);
   before->reset();
   if (const Status skinned = render::skin_bone(out.scene, *out.bone, 2, progress); !skinned)
     return hidden(skinned.error(), "the bone of this session cannot be drawn");

@@ -13,8 +13,8 @@
 #include "burr/render/image.h"
 #include "burr/render/scene.h"
 #include "burr/render/slice.h"
+#include "burr/report/product_views.h"
 #include "burr/volume/bone.h"
-#include "report/product_views.h"
 
 namespace burr::app {
 
@@ -23,10 +23,10 @@ struct ProductBone {
   std::unique_ptr<volume::Bone> bone;
   std::unique_ptr<render::Slicer> slicer;
   render::Scene scene;
-  std::vector<ProductView> views;
+  std::vector<report::ProductView> views;
 
   // A section, in the size of the pictures that the page shows.
-  [[nodiscard]] render::Image section(const ProductView& view);
+  [[nodiscard]] render::Image section(const report::ProductView& view);
 };
 
 // recording: as recording_of() found it (school/products.h).

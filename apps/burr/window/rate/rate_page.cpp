@@ -14,14 +14,13 @@
 #include "burr/render/picture.h"
 #include "burr/school/ratings.h"
 #include "burr/school/store.h"
-#include "commands/interrupt.h"
 #include "school/products.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
 #include "window/rate/product_bone.h"
 #include "window/rate/rate_panel.h"
-#include "window/shell/loading.h"
-#include "window/shell/texture.h"
-#include "window/shell/words.h"
-#include "window/start/start_page.h"
+#include "window/ui/loading.h"
+#include "window/ui/texture.h"
 
 namespace burr::app {
 namespace {
@@ -34,7 +33,7 @@ constexpr double kStep = 1.15;     // of the zoom
 constexpr float kViewsHigh = 124;  // the buttons of the views, with their margin [points]
 constexpr std::chrono::milliseconds kFrame(33);
 
-std::string name_of(const ProductView& view) {
+std::string name_of(const report::ProductView& view) {
   constexpr std::pair<const char*, Word> kSideNames[] = {{"straight", Word::rate_straight},
                                                          {"below", Word::rate_below},
                                                          {"left", Word::rate_from_left},
@@ -180,7 +179,7 @@ class Rate {
       return;
     }
     bone_ = std::make_unique<ProductBone>(std::move(*made));
-    for (const ProductView& view : bone_->views) shown_.views.push_back(name_of(view));
+    for (const report::ProductView& view : bone_->views) shown_.views.push_back(name_of(view));
     see(0);
   }
 
@@ -336,7 +335,7 @@ class Rate {
   // The same views as in the pictures of the instructor's page; a section is a flat picture.
   void see(std::size_t number) {
     if (!bone_ || number >= bone_->views.size()) return;
-    const ProductView& view = bone_->views[number];
+    const report::ProductView& view = bone_->views[number];
     shown_.view = number;
     section_.reset();
     if (!view.slice) {

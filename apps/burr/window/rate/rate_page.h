@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "burr/base/result.h"
-#include "window/mill/window_options.h"
-#include "window/shell/desk.h"
+#include "window/ui/closed.h"
+#include "window/ui/desk.h"
 
 namespace burr::app {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

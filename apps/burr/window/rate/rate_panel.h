@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "shared/words.h"
+#include "window/parts/hud.h"
 #include "window/replay/timeline_panel.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

@@ -18,8 +18,8 @@
 #include "window/replay/difference.h"
 #include "window/replay/facts.h"
 #include "window/replay/replay_view.h"
-#include "window/shell/loading.h"
-#include "window/shell/ui.h"
+#include "window/ui/loading.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

@@ -13,8 +13,8 @@
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/piece_look.h"
 #include "burr/workshop/recording.h"
-#include "window/shell/words.h"
-#include "window/start/sessions.h"
+#include "shared/words.h"
+#include "window/parts/sessions.h"
 
 namespace burr::app {
 

@@ -30,7 +30,7 @@
 #include "burr/volume/bone.h"
 #include "burr/workshop/out_piece.h"
 #include "burr/workshop/traces.h"
-#include "window/replay/film_job.h"
+#include "window/parts/film_job.h"
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"

@@ -1,7 +1,7 @@
 #include "window/replay/replay_bar.h"
 
-#include "window/shell/printed_keys.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
+#include "window/ui/printed_keys.h"
 
 namespace burr::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "window/mill/toolbar.h"
-#include "window/shell/ui.h"
+#include "window/parts/toolbar.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "burr/math/vec3.h"
-#include "window/mill/toolbar.h"
-#include "window/mill/window_options.h"
+#include "window/parts/toolbar.h"
 #include "window/replay/playback.h"
-#include "window/shell/desk.h"
+#include "window/ui/closed.h"
+#include "window/ui/desk.h"
 
 namespace burr::app {
 

@@ -8,7 +8,7 @@
 #include "burr/tick/mirror_plane.h"
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/work_view.h"
-#include "window/mill/mirror_mode.h"
+#include "window/parts/mirror_mode.h"
 #include "window/replay/difference.h"
 
 namespace burr::app {

@@ -20,7 +20,7 @@
 #include "burr/workshop/piece_look.h"
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/tool_looks.h"
-#include "window/mill/slices.h"
+#include "window/parts/slices.h"
 #include "window/replay/playback.h"
 
 namespace burr::app {

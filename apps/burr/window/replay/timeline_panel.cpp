@@ -6,9 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "window/mill/hud.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
+#include "window/parts/hud.h"
 
 namespace burr::app {
 namespace {
@@ -306,11 +305,6 @@ class Line {
 };
 
 }  // namespace
-
-std::string clock_of(double seconds) {
-  const double tenths = std::floor(10 * std::max(0.0, seconds) + 1e-6);
-  return fmt::format("{}.{}", minutes(tenths / 10), static_cast<long>(tenths) % 10);
-}
 
 std::string command_text(const record::TimelineEvent& event) {
   const tick::Command& command = event.command;

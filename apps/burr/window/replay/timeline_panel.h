@@ -11,9 +11,9 @@
 
 #include "burr/record/timeline.h"
 #include "burr/tick/servo.h"
-#include "window/mill/toolbar.h"
+#include "window/parts/toolbar.h"
 #include "window/replay/facts.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 
@@ -53,9 +53,6 @@ struct TimelineDone {
 };
 
 [[nodiscard]] TimelineDone draw_timeline(Ui& ui, const TimelineState& state);
-
-// "1:04.2"
-[[nodiscard]] std::string clock_of(double seconds);
 
 // A command as text for the user: "burr of 4 mm", or that there was no room for it.
 [[nodiscard]] std::string command_text(const record::TimelineEvent& event);

@@ -9,15 +9,14 @@
 
 #include "burr/render/picture.h"
 #include "burr/scenario/open_lesson.h"
-#include "commands/interrupt.h"
-#include "window/mill/export_page.h"
-#include "window/mill/measuring.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
+#include "window/parts/export_page.h"
+#include "window/parts/measuring.h"
 #include "window/replay/comparison.h"
 #include "window/replay/replay_view.h"
 #include "window/replay/split_view.h"
-#include "window/shell/anatomy.h"
-#include "window/shell/file_dialog.h"
-#include "window/shell/words.h"
+#include "window/ui/file_dialog.h"
 
 namespace burr::app {
 namespace {

@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "window/mill/export_page.h"
+#include "window/parts/export_page.h"
 #include "window/replay/comparison.h"
 #include "window/replay/facts.h"
 #include "window/replay/replay_page.h"
 #include "window/replay/replay_view.h"
 #include "window/replay/split_view.h"
-#include "window/shell/file_dialog.h"
+#include "window/ui/file_dialog.h"
 
 namespace burr::app {
 

@@ -5,18 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "window/mill/export_page.h"
-#include "window/mill/hud.h"
-#include "window/mill/measuring.h"
-#include "window/mill/mirror_mode.h"
+#include "shared/words.h"
+#include "window/parts/export_page.h"
+#include "window/parts/hud.h"
+#include "window/parts/measuring.h"
+#include "window/parts/mirror_mode.h"
 #include "window/replay/comparison.h"
 #include "window/replay/replay_bar.h"
 #include "window/replay/replay_view.h"
 #include "window/replay/split_view.h"
 #include "window/replay/timeline_panel.h"
-#include "window/shell/file_dialog.h"
-#include "window/shell/help.h"
-#include "window/shell/words.h"
+#include "window/ui/file_dialog.h"
+#include "window/ui/help.h"
 
 namespace burr::app {
 

@@ -8,14 +8,15 @@
 #include <iterator>
 #include <utility>
 
-#include "commands/interrupt.h"
-#include "window/mill/export_page.h"
-#include "window/mill/measuring.h"
-#include "window/mill/see_through.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
+#include "window/parts/export_page.h"
+#include "window/parts/hud.h"
+#include "window/parts/measuring.h"
+#include "window/parts/see_through.h"
 #include "window/replay/replay_view.h"
 #include "window/replay/timeline_panel.h"
-#include "window/shell/file_dialog.h"
-#include "window/shell/words.h"
+#include "window/ui/file_dialog.h"
 
 namespace burr::app {
 namespace {

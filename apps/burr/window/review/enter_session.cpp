@@ -10,9 +10,9 @@
 
 #include "burr/school/pending.h"
 #include "burr/school/store.h"
+#include "shared/helper_process.h"
+#include "shared/words.h"
 #include "window/review/review.h"
-#include "window/shell/helper_process.h"
-#include "window/shell/words.h"
 
 namespace burr::app {
 namespace {

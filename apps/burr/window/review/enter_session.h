@@ -9,7 +9,7 @@
 
 #include "burr/record/identity.h"
 #include "burr/scenario/case.h"
-#include "window/shell/desk.h"
+#include "window/ui/desk.h"
 
 namespace burr::app {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 

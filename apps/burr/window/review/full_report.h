@@ -8,7 +8,7 @@
 #include <string>
 
 #include "burr/scenario/recipe.h"
-#include "window/shell/helper_process.h"
+#include "shared/helper_process.h"
 
 namespace burr::app {
 

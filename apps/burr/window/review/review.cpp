@@ -3,7 +3,6 @@
 #include <SDL2/SDL.h>
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -12,25 +11,20 @@
 #include <system_error>
 #include <utility>
 
-#include "burr/render/camera.h"
 #include "burr/render/picture.h"
-#include "commands/interrupt.h"
-#include "report/marked.h"
-#include "report/questions.h"
-#include "window/replay/playback.h"
-#include "window/replay/replay_page.h"
+#include "burr/report/marked.h"
+#include "burr/report/questions.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
 #include "window/review/full_report.h"
 #include "window/review/review_page.h"
 #include "window/review/self_marks_page.h"
-#include "window/shell/loading.h"
-#include "window/shell/words.h"
+#include "window/ui/loading.h"
 
 namespace burr::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kBefore = 3, kAfter = 1;  // of a moment, are played [s]
 
 // Draws a page until it has an answer; nothing moves on it, so thirty pictures a second are enough.
 // closed: the user closed the window, or burr was interrupted.
@@ -85,9 +79,9 @@ class Review {
             options.file, options.rubric, volume_,
             std::filesystem::path(options.file).replace_extension(".html").string())) {
     if (!options.marks) return;
-    marking_ = std::make_unique<Loading<Report>>(
+    marking_ = std::make_unique<Loading<report::Report>>(
         [file = options.file, rubric = options.rubric, volume = volume_](Progress& progress) {
-          return marked(file, rubric, volume, progress);
+          return report::marked(file, rubric, volume, progress);
         });
   }
 
@@ -95,7 +89,7 @@ class Review {
     for (;;) {
       desk_.page = Page::review;
       desk_.renderer().title("burr");
-      const ReportItem* seen = nullptr;
+      const report::ReportItem* seen = nullptr;
       bool closed = false, leaves = false;
       pressed_ = {};
       const Status shown = show_until(
@@ -161,7 +155,7 @@ class Review {
     desk_.status_text = state.note;
     if (report_) {
       desk_.status_text += " " + report_->unfinished;
-      for (const ReportPart& part : report_->parts) desk_.status_text += " " + part.met;
+      for (const report::ReportPart& part : report_->parts) desk_.status_text += " " + part.met;
     }
     pressed_ = draw_review(desk_.ui(), state);
     if (pressed_.full) {
@@ -170,59 +164,36 @@ class Review {
     }
   }
 
-  // Plays the recording around the moment of an item's evidence. The recording stays open for the
-  // next one.
-  Result<Closed> play(const ReportItem& item) {
+  Result<Closed> play(const report::ReportItem& item) {
     note_.clear();
-    if (!recorded_) {
-      bool closed = false;
-      auto opened = load<Recorded>(
-          desk_, say(Word::loading, word(Word::start_recording)),
-          [this](Progress& progress) {
-            return open_recorded(options_.file, desk_.places().state, volume_, progress);
-          },
-          closed);
-      if (closed) return Closed::window;
-      if (!opened) {
-        if (opened.error().trouble != Trouble::interrupted) note_ = opened.error().text;
-        return Closed::page;
-      }
-      recorded_ = std::make_unique<Recorded>(std::move(*opened));
-    }
-    if (item.place) {                    // as the surgeon looks at it
-      constexpr double kHeight = 45e-3;  // of the picture [m]
-      recorded_->scene.camera = render::view_of_work(*item.place, report_->towards, kHeight);
-      render::pan(recorded_->scene.camera, 0, -0.1);  // the lower fifth is covered by the strip
-    }
-    WatchOptions watching;
-    watching.folder = options_.folder;
-    watching.from = std::max(0.0, *item.at_s - kBefore);
-    watching.until = *item.at_s + kAfter;
-    watching.place = item.place;
-    watching.note = item.text + "   " + word(Word::review_back);
-    return watch(desk_, *recorded_, watching);
+    ReviewMoment moment;
+    moment.volume = volume_;
+    moment.at = *item.at_s;
+    moment.place = item.place;
+    moment.towards = report_->towards;
+    moment.note = item.text + "   " + word(Word::review_back);
+    return options_.show(moment, note_);
   }
 
   Desk& desk_;
   const ReviewOptions& options_;
   scenario::Recipe volume_;
   ReviewPressed pressed_;
-  std::optional<Report> report_;
+  std::optional<report::Report> report_;
   std::string trouble_, note_;
-  std::unique_ptr<Recorded> recorded_;
   std::shared_ptr<FullReport> full_;
-  std::unique_ptr<Loading<Report>> marking_;  // last: its thread ends first
+  std::unique_ptr<Loading<report::Report>> marking_;  // last: its thread ends first
 };
 
 }  // namespace
 
-std::string rubric_for(const scenario::Case& work) { return rubric_of(work); }
+std::string rubric_for(const scenario::Case& work) { return report::rubric_of(work); }
 
-bool has_marks(const scenario::Case& work) { return !questions_on(work).empty(); }
+bool has_marks(const scenario::Case& work) { return !report::questions_on(work).empty(); }
 
 Result<bool> ask_self_marks(Desk& desk, const scenario::Case& work, record::Diary& diary,
                             std::uint64_t tick, double seconds) {
-  SelfMarksPage page(questions_on(work));
+  SelfMarksPage page(report::questions_on(work));
   desk.page = Page::self_marks;
   desk.renderer().title("burr");
   using Pressed = SelfMarksPage::Pressed;

@@ -1,11 +1,13 @@
 #include "window/review/review_page.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "window/mill/hud.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
+#include "window/parts/hud.h"
 
 namespace burr::app {
 namespace {
@@ -14,31 +16,31 @@ using Letter = Ui::Letter;
 
 constexpr float kMargin = 40, kLeft = 400, kTop = 84, kFoot = 64;  // [points]
 
-ImU32 colour_of(Tone tone) {
+ImU32 colour_of(report::Tone tone) {
   switch (tone) {
-    case Tone::good:
+    case report::Tone::good:
       return ink::kGood;
-    case Tone::bad:
+    case report::Tone::bad:
       return ink::kBad;
-    case Tone::open:
+    case report::Tone::open:
       return ink::kDim;
-    case Tone::none:
+    case report::Tone::none:
       break;
   }
   return ink::kText;
 }
 
 // A sign beside the word, so that not only a colour shows the mark: a tick, a cross, a ring.
-void sign(ImDrawList& draw, ImVec2 c, float u, Tone tone) {
+void sign(ImDrawList& draw, ImVec2 c, float u, report::Tone tone) {
   const ImU32 shade = colour_of(tone);
   const float r = 5 * u;
-  if (tone == Tone::good) {
+  if (tone == report::Tone::good) {
     draw.AddLine({c.x - r, c.y}, {c.x - 0.2F * r, c.y + 0.8F * r}, shade, 2 * u);
     draw.AddLine({c.x - 0.2F * r, c.y + 0.8F * r}, {c.x + 1.2F * r, c.y - r}, shade, 2 * u);
-  } else if (tone == Tone::bad) {
+  } else if (tone == report::Tone::bad) {
     draw.AddLine({c.x - r, c.y - r}, {c.x + r, c.y + r}, shade, 2 * u);
     draw.AddLine({c.x - r, c.y + r}, {c.x + r, c.y - r}, shade, 2 * u);
-  } else if (tone == Tone::open) {
+  } else if (tone == report::Tone::open) {
     draw.AddCircle(c, 0.8F * r, shade, 16, 1.5F * u);
   }
 }
@@ -63,7 +65,7 @@ class Column {
     ImGui::PopFont();
   }
   // a sign, and the text right of it
-  void marked(Tone tone, const std::string& text, const std::string& mark) {
+  void marked(report::Tone tone, const std::string& text, const std::string& mark) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     sign(*ImGui::GetWindowDrawList(), {at.x + 8 * u_, at.y + 9 * u_}, u_, tone);
     ImGui::SetCursorScreenPos({at.x + 24 * u_, at.y});
@@ -80,31 +82,31 @@ class Column {
 };
 
 // Each gate that was not held; of the others only how many.
-void draw_gates(Column& column, const Report& report) {
+void draw_gates(Column& column, const report::Report& report) {
   if (report.gates.empty()) return;
   column.heading(word(Word::report_safety));
   std::size_t held = 0;
   std::map<std::string, std::size_t> open;  // by the word for it
-  for (const ReportGate& gate : report.gates) {
-    if (gate.mark.tone == Tone::bad)
+  for (const report::ReportGate& gate : report.gates) {
+    if (gate.mark.tone == report::Tone::bad)
       column.marked(gate.mark.tone, gate.text,
                     gate.mark.word + (gate.when.empty() ? "" : ", " + gate.when));
-    held += gate.mark.tone == Tone::good ? 1 : 0;
-    if (gate.mark.tone == Tone::open) ++open[gate.mark.word];
+    held += gate.mark.tone == report::Tone::good ? 1 : 0;
+    if (gate.mark.tone == report::Tone::open) ++open[gate.mark.word];
   }
-  column.marked(held == report.gates.size() ? Tone::good : Tone::none,
+  column.marked(held == report.gates.size() ? report::Tone::good : report::Tone::none,
                 say(Word::review_gates, held, report.gates.size()), "");
   for (const auto& [text, count] : open)
-    column.marked(Tone::open, fmt::format("{} {}", count, text), "");
+    column.marked(report::Tone::open, fmt::format("{} {}", count, text), "");
 }
 
 // What matters most, at the left: gates, totals, own marks, what to do next.
-void draw_left(const Ui& ui, const Report& report) {
+void draw_left(const Ui& ui, const report::Report& report) {
   Column column(ui);
   column.write(Letter::body, ink::kWarn, report.unfinished);
   draw_gates(column, report);
   column.heading(word(Word::report_totals));
-  for (const ReportPart& part : report.parts) {
+  for (const report::ReportPart& part : report.parts) {
     column.write(Letter::small, ink::kDim, part.title);
     column.write(Letter::strong, ink::kText, part.met);
     column.write(Letter::small, ink::kWarn, part.note);
@@ -120,7 +122,7 @@ void draw_left(const Ui& ui, const Report& report) {
   }
   column.heading(word(Word::report_next));
   int n = 0;
-  for (const ReportAdvice& one : report.next) {
+  for (const report::ReportAdvice& one : report.next) {
     column.write(Letter::body, ink::kText, fmt::format("{}. {}", ++n, one.say));
     column.write(Letter::small, ink::kDim, one.why);
     column.gap(2);
@@ -137,7 +139,7 @@ void draw_left(const Ui& ui, const Report& report) {
 }
 
 // The mark and its sign; nothing where there is none.
-void mark_cell(const Ui& ui, const ReportMark& mark) {
+void mark_cell(const Ui& ui, const report::ReportMark& mark) {
   if (mark.word.empty()) return;
   const float u = ui.unit();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -146,7 +148,7 @@ void mark_cell(const Ui& ui, const ReportMark& mark) {
   Column(ui).write(Letter::small, ink::kText, mark.word);
 }
 
-bool item_row(const Ui& ui, const Report& report, const ReportItem& item) {
+bool item_row(const Ui& ui, const report::Report& report, const report::ReportItem& item) {
   Column column(ui);
   bool pressed = false;
   ImGui::PushID(item.id.c_str());
@@ -176,9 +178,9 @@ bool item_row(const Ui& ui, const Report& report, const ReportItem& item) {
   return pressed;
 }
 
-const ReportItem* draw_items(const Ui& ui, const Report& report) {
+const report::ReportItem* draw_items(const Ui& ui, const report::Report& report) {
   const float u = ui.unit();
-  const ReportItem* pressed = nullptr;
+  const report::ReportItem* pressed = nullptr;
   const int columns = report.has_self ? 4 : 3;
   ImGui::PushStyleColor(ImGuiCol_TableHeaderBg, ink::rgb(30, 34, 39));
   ImGui::PushStyleColor(ImGuiCol_TableRowBgAlt, ink::rgb(255, 255, 255, 8));
@@ -193,11 +195,11 @@ const ReportItem* draw_items(const Ui& ui, const Report& report) {
     ImGui::TableSetupColumn(word(Word::report_item), ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn(word(Word::review_evidence), ImGuiTableColumnFlags_WidthFixed, 108 * u);
     ImGui::TableHeadersRow();
-    for (const ReportPart& part : report.parts) {
+    for (const report::ReportPart& part : report.parts) {
       ImGui::TableNextRow();
       ImGui::TableSetColumnIndex(columns - 2);
       Column(ui).write(Letter::strong, ink::kAccent, part.title);
-      for (const ReportItem& item : part.items)
+      for (const report::ReportItem& item : part.items)
         if (item_row(ui, report, item)) pressed = &item;
     }
     ImGui::EndTable();

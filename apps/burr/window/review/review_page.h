@@ -7,25 +7,25 @@
 #include <optional>
 #include <string>
 
-#include "report/report.h"
-#include "window/shell/ui.h"
+#include "burr/report/report.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 
 struct ReviewState {
-  std::string title;               // of the case
-  const Report* report = nullptr;  // nullptr: not ready, or not to be shown
-  double progress = 0;             // of the marks, while there is no report  [0..1]
-  std::string trouble;             // why there are no marks; empty: none
-  bool exam = false;               // the examiner has the marks
-  bool repeats = false;            // the case can be done again
-  bool writes = false;             // the full report is being written
-  std::string note;                // of the full report
+  std::string title;                       // of the case
+  const report::Report* report = nullptr;  // nullptr: not ready, or not to be shown
+  double progress = 0;                     // of the marks, while there is no report  [0..1]
+  std::string trouble;                     // why there are no marks; empty: none
+  bool exam = false;                       // the examiner has the marks
+  bool repeats = false;                    // the case can be done again
+  bool writes = false;                     // the full report is being written
+  std::string note;                        // of the full report
 };
 
 struct ReviewPressed {
   bool close = false, again = false, full = false;
-  const ReportItem* item = nullptr;  // its evidence is to be seen
+  const report::ReportItem* item = nullptr;  // its evidence is to be seen
 };
 
 [[nodiscard]] ReviewPressed draw_review(Ui& ui, const ReviewState& state);

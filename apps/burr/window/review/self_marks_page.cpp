@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {
@@ -30,8 +30,9 @@ bool choice(const char* text, bool chosen, float wide, float u) {
 
 }  // namespace
 
-SelfMarksPage::SelfMarksPage(std::vector<QuestionPart> parts) : parts_(std::move(parts)) {
-  for (const QuestionPart& part : parts_) marks_.emplace_back(part.items.size(), Mark::none);
+SelfMarksPage::SelfMarksPage(std::vector<report::QuestionPart> parts) : parts_(std::move(parts)) {
+  for (const report::QuestionPart& part : parts_)
+    marks_.emplace_back(part.items.size(), Mark::none);
 }
 
 std::size_t SelfMarksPage::count() const {
@@ -51,7 +52,7 @@ SelfMarksPage::Marks SelfMarksPage::marks() const {
   return all;
 }
 
-void SelfMarksPage::row(Ui& ui, const Question& question, Mark& mark, float wide) {
+void SelfMarksPage::row(Ui& ui, const report::Question& question, Mark& mark, float wide) {
   const float u = ui.unit(), high = ImGui::GetFrameHeight() + 4 * u;
   ImGui::PushID(question.id.c_str());
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -118,7 +119,7 @@ SelfMarksPage::Pressed SelfMarksPage::draw(Ui& ui) {
   ImGui::SameLine();
   if (ImGui::Button(word(Word::self_skip))) pressed = Pressed::skipped;
   std::size_t all = 0;
-  for (const QuestionPart& one : parts_) all += one.items.size();
+  for (const report::QuestionPart& one : parts_) all += one.items.size();
   ui.write(x + wide, ui.height() - 42 * u, Letter::body, ink::kDim,
            say(Word::self_count, count(), all), 1);
   ImGui::End();

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "report/questions.h"
-#include "window/shell/ui.h"
+#include "burr/report/questions.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 
@@ -23,7 +23,7 @@ class SelfMarksPage {
   // By the id of the item; "met", "unmet" or "unknown", as the recording has it.
   using Marks = std::vector<std::pair<std::string, std::string>>;
 
-  explicit SelfMarksPage(std::vector<QuestionPart> parts);
+  explicit SelfMarksPage(std::vector<report::QuestionPart> parts);
   [[nodiscard]] Pressed draw(Ui& ui);
   // Only what was marked.
   [[nodiscard]] Marks marks() const;
@@ -32,9 +32,9 @@ class SelfMarksPage {
   enum class Mark { none, met, unmet, unknown };
   [[nodiscard]] std::size_t count() const;
   void part(Ui& ui, std::size_t p, float wide);
-  void row(Ui& ui, const Question& question, Mark& mark, float wide);
+  void row(Ui& ui, const report::Question& question, Mark& mark, float wide);
 
-  std::vector<QuestionPart> parts_;
+  std::vector<report::QuestionPart> parts_;
   std::vector<std::vector<Mark>> marks_;  // as parts_
 };
 

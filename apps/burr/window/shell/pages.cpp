@@ -9,19 +9,21 @@
 #include <utility>
 
 #include "burr/render/picture.h"
-#include "commands/interrupt.h"
-#include "commands/work.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
+#include "shared/work.h"
 #include "window/import/import_page.h"
 #include "window/import/notice_words.h"
+#include "window/mill/mill_keys.h"
 #include "window/mill/window.h"
+#include "window/parts/sessions.h"
 #include "window/rate/rate_page.h"
 #include "window/replay/playback.h"
 #include "window/review/enter_session.h"
 #include "window/review/review.h"
-#include "window/shell/loading.h"
-#include "window/shell/words.h"
-#include "window/start/sessions.h"
+#include "window/shell/review_session.h"
 #include "window/start/start_page.h"
+#include "window/ui/loading.h"
 
 namespace burr::app {
 namespace {
@@ -128,15 +130,15 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
   if (!stays) return stays.error();
   if (!*stays) return Closed::window;
   if (!desk.lost || autosave->kept_file().empty()) return Closed::page;
-  return review(desk, {.file = autosave->kept_file(),
-                       .title = title_of(ready),
-                       .rubric = rubric_for(*ready.work_case),
-                       .volume = options.volume,
-                       .marks = ready.allowed.marks,
-                       .repeats = true,
-                       .seconds = window.seconds,
-                       .folder = window.folder,
-                       .screenshot = window.screenshot});
+  return review_session(desk, {.file = autosave->kept_file(),
+                               .title = title_of(ready),
+                               .rubric = rubric_for(*ready.work_case),
+                               .volume = options.volume,
+                               .marks = ready.allowed.marks,
+                               .repeats = true,
+                               .seconds = window.seconds,
+                               .folder = window.folder,
+                               .screenshot = window.screenshot});
 }
 
 Result<bool> ask_own_marks(Desk& desk, const Ready& ready, record::Diary& diary,
@@ -217,13 +219,13 @@ Result<Closed> work_on(Desk& desk, StartPage::Choice& choice, const PagesOptions
 Result<Closed> look_at(Desk& desk, const StartPage::Choice& choice, const PagesOptions& options,
                        std::string& trouble) {
   const Result<Closed> left = choice.marks_of
-                                  ? review(desk, {.file = choice.marks_of->file.string(),
-                                                  .title = choice.marks_of->title,
-                                                  .rubric = choice.marks_of->rubric,
-                                                  .volume = choice.marks_of->options.volume,
-                                                  .seconds = options.seconds,
-                                                  .folder = options.folder,
-                                                  .screenshot = options.screenshot})
+                                  ? review_session(desk, {.file = choice.marks_of->file.string(),
+                                                          .title = choice.marks_of->title,
+                                                          .rubric = choice.marks_of->rubric,
+                                                          .volume = choice.marks_of->options.volume,
+                                                          .seconds = options.seconds,
+                                                          .folder = options.folder,
+                                                          .screenshot = options.screenshot})
                                   : watch_file(desk, choice.open->volume.source, {},
                                                {.seconds = options.seconds,
                                                 .folder = options.folder,
@@ -236,7 +238,7 @@ Result<Closed> look_at(Desk& desk, const StartPage::Choice& choice, const PagesO
 }  // namespace
 
 Status run_pages(Desk& desk, const PagesOptions& options) {
-  StartPage start(desk, options.led.hand, options.led.identity);
+  StartPage start(desk, mill_help_rows, options.led.hand, options.led.identity);
   std::string trouble, told;  // told: of a session that was not kept
   RateState rating;           // of whoever marks products, while burr runs
   for (;;) {

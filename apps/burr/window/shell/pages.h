@@ -6,11 +6,11 @@
 #include <functional>
 #include <string>
 
-#include "commands/work.h"
-#include "window/mill/make_ready.h"
+#include "shared/make_ready.h"
+#include "shared/work.h"
 #include "window/mill/window_options.h"
 #include "window/replay/replay_page.h"
-#include "window/shell/desk.h"
+#include "window/ui/desk.h"
 
 namespace burr::app {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "burr/workshop/device_book.h"
-#include "window/shell/words.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

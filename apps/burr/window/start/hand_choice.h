@@ -13,7 +13,7 @@
 #include <string>
 
 #include "burr/workshop/hand_device.h"
-#include "window/shell/ui.h"
+#include "window/ui/ui.h"
 
 namespace burr::app {
 

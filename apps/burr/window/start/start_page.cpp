@@ -12,15 +12,13 @@
 
 #include "burr/scenario/case.h"
 #include "burr/workshop/hand_device.h"
-#include "commands/interrupt.h"
-#include "commands/work.h"
-#include "window/mill/hud.h"
-#include "window/mill/mill_keys.h"
-#include "window/rate/can_rate.h"
-#include "window/shell/help.h"
-#include "window/shell/settings_page.h"
-#include "window/shell/typed_path.h"
-#include "window/shell/words.h"
+#include "shared/interrupt.h"
+#include "shared/words.h"
+#include "shared/work.h"
+#include "window/parts/hud.h"
+#include "window/start/can_rate.h"
+#include "window/ui/settings_page.h"
+#include "window/ui/typed_path.h"
 
 namespace burr::app {
 namespace {
@@ -44,19 +42,10 @@ std::vector<std::string> cases() {
 
 }  // namespace
 
-std::string name_of_case(const std::string& name) {
-  const std::pair<const char*, Word> known[] = {{"temporal-bone", Word::case_temporal_bone},
-                                                {"jaw", Word::case_jaw},
-                                                {"spine", Word::case_spine},
-                                                {"tooth", Word::case_tooth},
-                                                {"block", Word::case_block}};
-  for (const auto& [key, says] : known)
-    if (name == key) return word(says);
-  return name;
-}
-
-StartPage::StartPage(Desk& desk, const workshop::HandRequest& hand, record::Identity identity)
+StartPage::StartPage(Desk& desk, HelpRows help_rows, const workshop::HandRequest& hand,
+                     record::Identity identity)
     : desk_(desk),
+      help_rows_(std::move(help_rows)),
       thumbnails_(desk.places().cache, cases()),
       renewed_(desk.renewed()),
       hand_([&] {
@@ -159,8 +148,7 @@ void StartPage::open(std::string path) {
 void StartPage::draw() {
   Ui& ui = desk_.ui();
   const float u = ui.unit();
-  if (help_ && !draw_help(ui, mill_help_rows(desk_.settings.left_handed), help_pads_))
-    help_ = false;
+  if (help_ && !draw_help(ui, help_rows_(desk_.settings.left_handed), help_pads_)) help_ = false;
   if (settings_) {
     const fs::path& config = desk_.places().config;
     const SettingsPage page = draw_settings(

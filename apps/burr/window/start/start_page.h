@@ -4,26 +4,32 @@
 // Thread: main.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "burr/record/identity.h"
 #include "burr/workshop/hand_device.h"
-#include "commands/work.h"
-#include "window/shell/desk.h"
-#include "window/shell/file_dialog.h"
+#include "shared/work.h"
+#include "window/parts/sessions.h"
 #include "window/start/hand_choice.h"
-#include "window/start/sessions.h"
 #include "window/start/thumbnails.h"
+#include "window/ui/desk.h"
+#include "window/ui/file_dialog.h"
+#include "window/ui/help.h"
 
 namespace burr::app {
 
 class StartPage {
  public:
+  // The keys and the mouse while milling, which this page's help shows; left_handed: the mouse
+  // buttons are exchanged.
+  using HelpRows = std::function<std::vector<HelpRow>(bool left_handed)>;
   // hand: from the command line; if it names no device, that of the settings is taken. identity:
   // mode, learner and attempt from the command line; the user may choose another mode
-  StartPage(Desk& desk, const workshop::HandRequest& hand, record::Identity identity = {});
+  StartPage(Desk& desk, HelpRows help_rows, const workshop::HandRequest& hand,
+            record::Identity identity = {});
 
   // What the user chose; exactly one is set.
   struct Choice {
@@ -56,6 +62,7 @@ class StartPage {
   void open(std::string path);
 
   Desk& desk_;
+  HelpRows help_rows_;
   Thumbnails thumbnails_;
   int renewed_ = 0;  // desk_.renewed() when thumbnails_ was last made
   FileDialog dialog_;
@@ -70,8 +77,5 @@ class StartPage {
   bool help_ = false, help_pads_ = false, settings_ = false, settings_pads_ = false;
   bool rates_ = false;  // there is a store whose products can be marked
 };
-
-// "Temporal bone", in the user's language; an unknown case keeps its name.
-[[nodiscard]] std::string name_of_case(const std::string& name);
 
 }  // namespace burr::app

@@ -10,7 +10,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/version.h"
 #include "burr/render/bone_scene.h"
-#include "commands/work.h"
+#include "shared/work.h"
 
 namespace burr::app {
 namespace {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "burr/render/renderer.h"
-#include "window/shell/loading.h"
-#include "window/shell/texture.h"
+#include "window/ui/loading.h"
+#include "window/ui/texture.h"
 
 namespace burr::app {
 

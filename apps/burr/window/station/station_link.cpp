@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <utility>
 
-#include "burr/http/client.h"
+#include "burr/net/client.h"
 #include "burr/render/picture.h"
 
 namespace burr::app {
@@ -54,7 +54,7 @@ render::Image smaller(render::Image image, int wide) {
 }
 
 Result<std::unique_ptr<StationLink>> StationLink::open(const To& to) {
-  const auto url = http::parse_url(to.url);
+  const auto url = net::parse_url(to.url);
   if (!url) return error(Trouble::usage, fmt::format("--live {}: {}", to.url, url.error().text));
   if (url->target != "/")
     return error(Trouble::usage,
@@ -102,18 +102,18 @@ std::string StationLink::trouble() const {
 
 // True: it is watched.
 Result<bool> StationLink::ask(const Words& words, std::uint64_t number, std::string picture) {
-  http::Question question;
+  net::Question question;
   question.method = "POST";
   question.wait_s = kWait;
   question.url = fmt::format(
       "{}/api/station?name={}&picture={}&seen={}&learner={}&case={}&mode={}&step={}&seconds={:.1f}"
       "&force={:.2f}",
-      to_.url, http::escaped(to_.name), number, seen_, http::escaped(words.learner),
-      http::escaped(words.work), http::escaped(words.mode), http::escaped(words.step),
-      words.seconds, words.force);
+      to_.url, net::escaped(to_.name), number, seen_, net::escaped(words.learner),
+      net::escaped(words.work), net::escaped(words.mode), net::escaped(words.step), words.seconds,
+      words.force);
   question.fields = {{"Authorization", "Bearer " + to_.token}, {"Content-Type", "image/jpeg"}};
   question.body = std::move(picture);
-  const auto answer = http::ask(question);
+  const auto answer = net::ask(question);
   if (!answer) return answer.error();
   const auto said = nlohmann::json::parse(answer->body, nullptr, false);
   if (answer->status != 200 || !said.is_object())

@@ -88,9 +88,9 @@ const char* Events::words() const BURR_RT {
 // Waits for the next message, however long it takes. False: the channel is closed, or this object
 // is being destroyed.
 bool Events::read_event_message() {
-  WebSocket::Received heard = WebSocket::Received::nothing;
-  while (heard == WebSocket::Received::nothing) heard = line_.receive(kListen);
-  return heard == WebSocket::Received::message;
+  net::WebSocket::Received heard = net::WebSocket::Received::nothing;
+  while (heard == net::WebSocket::Received::nothing) heard = line_.receive(kListen);
+  return heard == net::WebSocket::Received::message;
 }
 
 void Events::listen() {

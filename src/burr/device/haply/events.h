@@ -15,7 +15,7 @@
 #include <string>
 
 #include "burr/device/haply/message.h"
-#include "burr/device/haply/web_socket.h"
+#include "burr/net/web_socket.h"
 #include "burr/rt/rt.h"
 #include "burr/rt/thread.h"
 
@@ -54,7 +54,7 @@ class Events {
   std::atomic<bool> may_have_missed_release_ = false;
   std::atomic<const char*> words_ = nullptr;
   std::atomic<std::int64_t> until_ns_ = 0;  // end of the time for which the words are shown
-  WebSocket line_;
+  net::WebSocket line_;
   rt::Thread thread_;
 };
 

@@ -13,8 +13,8 @@
 
 #include "burr/device/haply/events.h"
 #include "burr/device/haply/message.h"
-#include "burr/device/haply/web_socket.h"
 #include "burr/device/silence.h"
+#include "burr/net/web_socket.h"
 #include "burr/rt/clock.h"
 
 namespace burr::device::haply {
@@ -87,7 +87,7 @@ Vec3 theirs(const Vec3& v) BURR_RT { return {v.x(), -v.z(), v.y()}; }
 
 // The connection and its state.
 struct Inverse::Connection {
-  WebSocket line{kLargest};
+  net::WebSocket line{kLargest};
   bool asked = false;  // the answer is still to come
   Silence silence;
   int nonsense = 0;
@@ -108,14 +108,14 @@ struct Inverse::Connection {
     asked = true;
     return true;
   }
-  WebSocket::Received receive(milliseconds longest) {
-    const WebSocket::Received what = line.receive(longest);
-    if (what != WebSocket::Received::message) return what;
+  net::WebSocket::Received receive(milliseconds longest) {
+    const net::WebSocket::Received what = line.receive(longest);
+    if (what != net::WebSocket::Received::message) return what;
     silence.ended(rt::monotonic_ns());
     asked = false;
     return what;
   }
-  bool hears() { return receive(kPatience) == WebSocket::Received::message; }
+  bool hears() { return receive(kPatience) == net::WebSocket::Received::message; }
 
   // One exchange. False: the service is gone, or its answer is not valid.
   bool exchange(const Vec3& force) {
@@ -146,7 +146,7 @@ namespace {
 
 // The service's version as it reports it over HTTP; 0: none.
 int version_of(const std::string& host, int port) {
-  return read_version(http_body(host, port, "/version"));
+  return read_version(net::http_body(host, port, "/version"));
 }
 
 }  // namespace
@@ -323,9 +323,9 @@ void Inverse::note(const char* words) BURR_RT {
 Wire::Read Inverse::read(HandState& hand) BURR_RT {
   Connection& connection = *connection_;
   hand.valid = false;
-  const WebSocket::Received heard = connection.receive(kOneReading);
-  if (heard != WebSocket::Received::message) {
-    if (heard == WebSocket::Received::nothing && !connection.silence.lasts(rt::monotonic_ns()))
+  const net::WebSocket::Received heard = connection.receive(kOneReading);
+  if (heard != net::WebSocket::Received::message) {
+    if (heard == net::WebSocket::Received::nothing && !connection.silence.lasts(rt::monotonic_ns()))
       return Read::nothing;
     note("has gone silent; check that Haply's Inverse Service runs.");
     return Read::lost;
