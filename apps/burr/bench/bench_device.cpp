@@ -18,6 +18,7 @@
 #include "commands/hand_options.h"
 #include "commands/interrupt.h"
 #include "commands/json_line.h"
+#include "commands/setting_options.h"
 #include "commands/volume_words.h"
 #include "commands/work.h"
 #include "window/mill/make_ready.h"
@@ -161,7 +162,7 @@ void add(CLI::App& bench, Todo& todo) {
       ->add_option("--echo-seconds", options->echo_s, "length of the idle echo before the session")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
-  command->add_option("--burr-mm", options->work.burr_mm, "diameter of the burr");
+  add_setting_option(*command, "burr_mm", options->work.burr_mm);
   command->add_flag("--json", options->json, "one JSON object");
   add_hand_options(*command, options->work.hand);
   command->add_option("--suction", options->work.suction,

@@ -23,6 +23,7 @@
 #include "commands/hand_options.h"
 #include "commands/interrupt.h"
 #include "commands/json_line.h"
+#include "commands/setting_options.h"
 #include "people/run.h"
 #include "scenes/wall.h"
 
@@ -307,8 +308,7 @@ void add_psychophysics(CLI::App& app,
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "longest duration of an interval")
       ->capture_default_str();
-  command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
-      ->capture_default_str();
+  add_setting_option(*command, "rate_hz", options->rate_hz);
   command->add_option("--seed", options->seed, "seed of orders and levels")->capture_default_str();
   command->add_option("--subject", options->subject,
                       "code of the person: at most 16 letters, digits, - and _; not a name");
