@@ -34,8 +34,10 @@ list(TRANSFORM BURR_PYTHON_FILES PREPEND ${PROJECT_SOURCE_DIR}/python/burr/)
 install(FILES ${BURR_PYTHON_FILES} DESTINATION ${BURR_PYTHON_DIR}/burr COMPONENT python)
 install(CODE "message(STATUS \"Python finds burr with PYTHONPATH=\${CMAKE_INSTALL_PREFIX}/${BURR_PYTHON_DIR}\")" COMPONENT python)
 
-# tests/python/x_test.py -> one test each; they also run the program
+# tests/python/x_test.py -> one test each; they also run the program, and settings_test.py what C++ says
 if(BURR_TESTS AND TARGET burr_program)
+  add_executable(setting_trial ${PROJECT_SOURCE_DIR}/tests/python/setting_trial.cpp)
+  target_link_libraries(setting_trial PRIVATE burr burr_options)
   file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/python/*_test.py)
   foreach(test ${tests})
     get_filename_component(name ${test} NAME_WE)

@@ -147,8 +147,8 @@ Scene make_scene(const py::object& source, const py::object& name, std::uint32_t
     open_bone(scene, recipe, call);
   }
   take_work(scene, burr_mm.is_none());
-  if (!burr_mm.is_none()) scene.burr_mm = burr_mm.cast<double>();
-  if (!rpm.is_none()) scene.rpm = rpm.cast<double>();
+  if (!burr_mm.is_none()) scene.settings["burr_mm"] = burr_mm.cast<double>();
+  if (!rpm.is_none()) scene.settings["rpm"] = rpm.cast<double>();
   if (!tool.is_none()) scene.tool = tool.cast<std::string>();
   return scene;
 }
@@ -171,28 +171,18 @@ void take_work(Scene& scene, bool own_burr) {
   scene.title = work.title;
   scene.motion = work.motion;
   scene.seconds = work.seconds;
-  scene.burr_mm = scenario::burr_mm(work);
-  scene.rpm = scenario::rpm(work);
-  scene.diamond = own_burr && work.burr.kind == tool::BurrKind::diamond;
+  double burr_mm = scenario::burr_mm(work);
+  scene.settings["rpm"] = scenario::rpm(work);
+  scene.settings["diamond"] = own_burr && work.burr.kind == tool::BurrKind::diamond;
   if (own_burr) {
     scene.tool = work.tool;
-    workshop::fit_burr(scene.burr_mm, scene.bone->bone->grid().voxel, scene.bone->notices);
+    workshop::fit_burr(burr_mm, scene.bone->bone->grid().voxel, scene.bone->notices);
   }
-  if (!work.session) return;
-  tick::ServoSettings tried;
-  check(workshop::take_session(work, tried));
-  const scenario::SessionWish& wish = *work.session;
-  if (!wish.touch.empty()) scene.touch = wish.touch;
-  if (!wish.removal.empty()) scene.removal = wish.removal;
-  scene.rate_hz = wish.rate_hz.value_or(scene.rate_hz);
-  scene.stiffness_n_per_m = wish.stiffness_n_per_m.value_or(scene.stiffness_n_per_m);
-  scene.drag = wish.drag.value_or(scene.drag);
-  scene.vibration = wish.vibration.value_or(scene.vibration);
-  scene.torque_mnm = wish.torque_mnm.value_or(scene.torque_mnm);
-  if (wish.teeth) scene.teeth = static_cast<int>(*wish.teeth);
-  if (wish.undo_bricks) scene.undo_bricks = static_cast<std::size_t>(*wish.undo_bricks);
-  scene.guarded = wish.guard.value_or(scene.guarded);
-  scene.irrigated = wish.irrigation.value_or(scene.irrigated);
+  scene.settings["burr_mm"] = burr_mm;
+  check(workshop::check_session(work));
+  if (work.session)
+    for (const scenario::SessionWish::Field& field : work.session->fields)
+      scene.put(field.word, field.value);
 }
 
 namespace {
@@ -201,29 +191,7 @@ sim::SessionSettings settings_of(const Scene& scene) {
   sim::SessionSettings settings;
   settings.threads = std::clamp(scene.threads, 1, 64);
   tick::ServoSettings& servo = settings.servo;
-  servo.rate_hz = scene.rate_hz;
-  const auto touch = haptics::method_named(scene.touch);
-  if (!touch)
-    raise(
-        fmt::format("touch \"{}\" is not known; use constraint or shaft, or one of "
-                    "docs/understand/touch_methods.md",
-                    scene.touch));
-  servo.touch = *touch;
-  const auto law = edit::law_named(scene.removal);
-  if (!law)
-    raise(fmt::format("removal \"{}\" is not known; use energy, chips or thesis", scene.removal));
-  servo.removal.law = *law;
-  servo.guarded = scene.guarded;
-  servo.vibration_gain = scene.vibration;
-  servo.burr.radius = 0.5e-3 * scene.burr_mm;
-  servo.burr.kind = scene.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
-  servo.spindle_rad_s = scene.rpm * 2 * kPi / 60;
-  servo.motor.torque = 1e-3 * scene.torque_mnm;
-  servo.burr.teeth = scene.teeth;
-  servo.drag_gain = scene.drag;
-  servo.force.stiffness = scene.stiffness_n_per_m;
-  servo.undo_bricks = scene.undo_bricks;
-  servo.irrigated = scene.irrigated;
+  servo = servo_of(scene);
   if (!scene.tool.empty()) {
     scenario::Rack rack = scene.tools.empty()
                               ? scenario::built_in_rack()
@@ -247,7 +215,7 @@ surgeon::WorkPlace place_of(const Scene& scene) {
            1e-3;
     into = scene.work->into;
   }
-  return take(surgeon::find_work_place(*scene.bone->bone, 0.5e-3 * scene.burr_mm, at, into));
+  return take(surgeon::find_work_place(*scene.bone->bone, 0.5e-3 * scene.burr_mm(), at, into));
 }
 
 // ---- sessions
@@ -920,22 +888,9 @@ void add_scene(py::module_& module) {
                               [](const Scene& self) { return array_of(place_of(self).at); });
   scene.def_property_readonly("into",
                               [](const Scene& self) { return array_of(place_of(self).into); });
-  scene.def_readwrite("burr_mm", &Scene::burr_mm);
-  scene.def_readwrite("rpm", &Scene::rpm);
-  scene.def_readwrite("diamond", &Scene::diamond);
-  scene.def_readwrite("teeth", &Scene::teeth);
+  add_settings(scene);
   scene.def_readwrite("tool", &Scene::tool);
   scene.def_readwrite("tools", &Scene::tools);
-  scene.def_readwrite("rate_hz", &Scene::rate_hz);
-  scene.def_readwrite("stiffness_n_per_m", &Scene::stiffness_n_per_m);
-  scene.def_readwrite("touch", &Scene::touch);
-  scene.def_readwrite("removal", &Scene::removal);
-  scene.def_readwrite("drag", &Scene::drag);
-  scene.def_readwrite("vibration", &Scene::vibration);
-  scene.def_readwrite("torque_mnm", &Scene::torque_mnm);
-  scene.def_readwrite("guarded", &Scene::guarded);
-  scene.def_readwrite("irrigated", &Scene::irrigated);
-  scene.def_readwrite("undo_bricks", &Scene::undo_bricks);
   scene.def_readwrite("threads", &Scene::threads);
   scene.def_readwrite("law", &Scene::law);
   scene.def_readwrite("law_settings", &Scene::law_settings);

@@ -3,13 +3,14 @@
 // Thread: one at a time, with the GIL.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "burr/scenario/case.h"
 #include "burr/scenario/recipe.h"
+#include "burr/tick/setting_table.h"
 #include "burr/tick/settings.h"
 #include "common.h"
 #include "events.h"
@@ -19,19 +20,24 @@ namespace burr::python {
 struct Scene {
   BonePtr bone;
   std::optional<scenario::Case> work;
-  // as `burr mill` has them, in its units, so that one scene gives one hash
-  double burr_mm = 5, rpm = 40000, rate_hz = 1000, stiffness_n_per_m = 1000, drag = 1,
-         vibration = 0, torque_mnm = 1e3 * tool::Motor{}.torque;
-  bool diamond = false, guarded = false, irrigated = false;
-  int teeth = tool::Burr{}.teeth, threads = 1;
-  std::string tool, tools, touch = "constraint", removal = "energy";
-  std::size_t undo_bricks = tick::ServoSettings{}.undo_bricks;
+  // As `burr mill` has them, by the same words and in the same units, so that one scene gives one hash.
+  tick::TypedValues settings = tick::usual_values();
+  int threads = 1;
+  std::string tool, tools;
   std::string title, motion = "pocket";  // of the demonstration, as its seconds
   double seconds = 20;
   std::vector<Wanted> wanted;   // by all its sessions
   py::object law = py::none();  // a compiled one's file, or a function
   std::string law_settings;
+
+  // One of a case's file, where 1 and 1.0 are the same number.
+  void put(const std::string& word, const base::Given& value);
+  [[nodiscard]] double burr_mm() const { return std::get<double>(settings.at("burr_mm")); }
+  [[nodiscard]] double rpm() const { return std::get<double>(settings.at("rpm")); }
 };
+
+// What a session is made with, of its settings. Throws what is out of range, with the property's name.
+[[nodiscard]] tick::ServoSettings servo_of(const Scene& scene);
 
 // Opens the bone of a recipe; call: None, or f(fraction, stage).
 void open_bone(Scene& scene, const scenario::Recipe& recipe, const py::object& call);
@@ -40,6 +46,8 @@ void take_work(Scene& scene, bool own_burr);
 
 // scene_file.cpp: a scene as the file of a case, and back.
 void add_scene_file(py::class_<Scene>& scene);
+// scene_settings.cpp: a property for each setting that persons give.
+void add_settings(py::class_<Scene>& scene);
 // guidance.cpp: what a mode of a session allows.
 void add_guidance(py::class_<Scene>& scene);
 

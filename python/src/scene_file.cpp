@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "burr/base/new_file.h"
 #include "burr/base/text_file.h"
 #include "burr/scenario/write_case.h"
+#include "burr/tick/setting_table.h"
 #include "burr/workshop/prebuilt_phantom.h"
 #include "burr/workshop/prepare.h"
 #include "common.h"
@@ -44,12 +45,13 @@ bool has_a_name(const BoneBox& box) {
   return plain == box.recipe;
 }
 
-// The number with the fewest digits that gives the same bits where it is used.
-template <class Use>
-double shortest(double value, const Use& use) {
+// The number with the fewest digits that gives the same bits to a session.
+double shortest(const Scene& scene, const char* word) {
+  const auto to_si = tick::setting_of_word(word)->about.typed.to_si;
+  const double value = std::get<double>(scene.settings.at(word));
   for (int digits = 1; digits < 17; ++digits) {
     const double tried = std::stod(fmt::format("{:.{}g}", value, digits));
-    if (use(tried) == use(value)) return tried;
+    if (to_si(tried) == to_si(value)) return tried;
   }
   return value;
 }
@@ -84,23 +86,16 @@ std::string text_of(const Scene& scene, const fs::path& folder, const std::strin
   else
     file.volume = beside(recipe.source, folder);
   if (bone.empty()) file.voxel_mm = recipe.voxel_mm;
-  file.burr_mm = shortest(scene.burr_mm, [](double mm) { return 0.5e-3 * mm; });
-  file.rpm = shortest(scene.rpm, [](double rpm) { return rpm * 2 * std::numbers::pi / 60; });
-  file.diamond = scene.diamond;
+  static_cast<void>(servo_of(scene));  // refuses what is out of range by the name of its property
+  file.burr_mm = shortest(scene, "burr_mm");
+  file.rpm = shortest(scene, "rpm");
+  file.diamond = std::get<bool>(scene.settings.at("diamond"));
   file.tool = scene.tool;
   if (!scene.tools.empty())
     file.tools = take(base::text_of_file(scene.tools, kLargestTools, "a list of tools"));
-  file.session = {.rate_hz = scene.rate_hz,
-                  .stiffness_n_per_m = scene.stiffness_n_per_m,
-                  .drag = scene.drag,
-                  .vibration = scene.vibration,
-                  .torque_mnm = scene.torque_mnm,
-                  .teeth = scene.teeth,
-                  .undo_bricks = static_cast<double>(scene.undo_bricks),
-                  .guard = scene.guarded,
-                  .irrigation = scene.irrigated,
-                  .touch = scene.touch,
-                  .removal = scene.removal};
+  for (const auto& [word, value] : scene.settings)
+    if (tick::setting_of_word(word)->about.typed.place == tick::Typed::Place::session)
+      file.session.set(word, value);
   file.motion = scene.motion;
   file.seconds = scene.seconds;
   return take(scenario::write_case(file));

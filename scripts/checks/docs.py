@@ -3,7 +3,8 @@
 
 - a page has at most 3000 words; figures of a day and diaries are in bench/results, which has no such rule;
 - the README.md of a folder of docs/ names every page of the folder, in one screen;
-- a page or folder of docs/ that any file of the project names is there, and so is the section whose name follows in quotes.
+- a page or folder of docs/ that any file of the project names is there, and so is the section whose name follows in quotes;
+- the page of settings is what `burr settings --markdown` prints.
 
     scripts/checks/docs.py [BUILD]        BUILD: folder of the program; default build/release
 """
@@ -108,6 +109,8 @@ def what_it_adds(text):
     options = set()
     for patch in re.findall(r"^```diff\n(.*?)^```", text, re.S | re.M):
         options.update(re.findall(r"^\+.*\"(--[\w-]+)\"", patch, re.M))
+        # a row of the table of settings is an option by its word
+        options.update("--" + word.replace("_", "-") for word in re.findall(r"^\+.*\btyped\(\"(\w+)\"", patch, re.M))
     return re.sub(r"^```(?:cpp|diff)\n.*?^```\n", "", text, flags=re.S | re.M), files, options
 
 
@@ -156,6 +159,15 @@ def check_command(name, line, added):
             bad.append(f"{name}: `burr {' '.join(command)}` has no {option}: {line}")
 
 
+def check_printed():
+    page = ROOT / "docs/use" / "settings.md"
+    if not page.exists() or not BURR.exists():
+        return
+    if subprocess.run([BURR, "settings", "--markdown"], capture_output=True, text=True).stdout != page.read_text():
+        name = page.relative_to(ROOT)
+        bad.append(f"{name}: is not what the program prints; write it anew: build/release/burr settings --markdown > {name}")
+
+
 documents = [n for n in tracked("*.md") if not n.startswith("tests/")]
 for name in documents:
     text, new_files, new_options = what_it_adds((ROOT / name).read_text())
@@ -178,6 +190,7 @@ for name in documents:
     for code in re.findall(r"`((?:build/release/)?burr [^`]+|\./(?:run|test)[^`]*)`", text):
         check_command(name, code, new_options)
 
+check_printed()
 check_indexes(documents)
 # the marks of learners name the text of their rubric by its hash, so not a comment of it is changed
 for name in tracked(".", ":!third_party", ":!rubrics"):

@@ -26,6 +26,8 @@ def run(**changes):
                 path = pathlib.Path(folder) / name
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text)
+                if path.name == "burr":
+                    path.chmod(0o755)
         script = pathlib.Path(folder) / "scripts" / "checks" / "docs.py"
         script.parent.mkdir(parents=True)
         shutil.copy(SCRIPT, script)
@@ -55,6 +57,12 @@ class Docs(unittest.TestCase):
         self.complains("docs/use/README.md: does not name sound.md", **{"docs/use/sound.md": "# Sound\n"})
         self.complains("docs/use/README.md: does not name devices/haply.md", **{"docs/use/devices/haply.md": "# Haply\n"})
         self.complains("docs/README.md: does not name teach/README.md", **{"docs/teach/README.md": "# Teach\n"})
+
+    def test_a_page_that_the_program_prints(self):
+        pages = {"docs/use/README.md": GOOD["docs/use/README.md"] + "[settings](settings.md)\n", "docs/use/settings.md": "# Settings\n"}
+        program = "#!/bin/sh\n[ \"$*\" = 'settings --markdown' ] && echo '# {}'\n"
+        self.assertEqual(run(**pages, **{"no_build/burr": program.format("Settings")})[0], 0)
+        self.complains("docs/use/settings.md: is not what the program prints", **pages, **{"no_build/burr": program.format("Other settings")})
 
     def test_a_folder_without_an_index(self):
         self.complains("docs/teach: has no README.md", **{"docs/teach/school.md": "# School\n"})

@@ -199,11 +199,11 @@ class SceneFile(unittest.TestCase):
 
     def test_a_wrong_session_in_a_file(self):
         good = burr.Scene("phantom:block", burr_mm=4).to_toml()
-        for old, new, words in [('touch = "constraint"', 'touch = "fingers"', 'session.touch: "fingers" is not known'),
-                                ('removal = "energy"', 'removal = "wish"', 'session.removal: "wish" is not known'),
-                                ("drag = 1.0", "drag = 11", "session.drag: must be a number"),
+        for old, new, words in [('touch = "constraint"', 'touch = "fingers"', 'session.touch: must be one of constraint, '),
+                                ('removal = "energy"', 'removal = "wish"', 'session.removal: must be one of energy, thesis, chips, not "wish"'),
+                                ("drag = 1.0", "drag = 11", "session.drag: must be a number from 0 to 10, not 11"),
                                 ("drag = 1.0", "drags = 1", "session.drags: is not a known field"),
-                                ("teeth = 12", "teeth = 2.5", "session.teeth: must be a whole number")]:
+                                ("teeth = 12", "teeth = 2.5", "session.teeth: must be a whole number from 1 to 64, not 2.5")]:
             self.assertIn(old.split(" ")[0], good)
             line = next(line for line in good.splitlines() if line.startswith(old.split(" ")[0] + " "))
             bad = good.replace(line, new)

@@ -237,12 +237,12 @@ TEST(Pieces, WhatCannotBeMovedIsRefusedInWords) {
   Bench small(bar(), 0);  // no room for bricks of air
   const auto full = small.move({6, 0, 0}, {5, 0, 0});
   ASSERT_FALSE(full.ok());
-  EXPECT_NE(full.error().text.find("--reserve-bricks"), std::string::npos) << full.error().text;
+  EXPECT_NE(full.error().text.find("raise reserve_bricks"), std::string::npos) << full.error().text;
   EXPECT_EQ(small.session->bone().content_hash(), small.at_start);
   Bench forgetful(bar(), 2048, 64);
   const auto large = forgetful.move({6, 0, 0}, {5, 0, 0});
   ASSERT_FALSE(large.ok());
-  EXPECT_NE(large.error().text.find("--undo-bricks"), std::string::npos) << large.error().text;
+  EXPECT_NE(large.error().text.find("raise undo_bricks"), std::string::npos) << large.error().text;
 }
 
 // A command whose bone was changed after it was prepared changes nothing.

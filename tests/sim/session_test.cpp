@@ -305,7 +305,7 @@ TEST(Session, RefusesABurrSmallerThanTheVoxelsCanCarryWithTheCure) {
                     settings, quiet);
   ASSERT_FALSE(session.ok());
   EXPECT_EQ(session.error().trouble, Trouble::usage);
-  EXPECT_NE(session.error().text.find("--voxel-mm 0.2"), std::string::npos) << session.error().text;
+  EXPECT_NE(session.error().text.find("voxels of 0.2"), std::string::npos) << session.error().text;
 }
 
 // ---- recorded and simulated again

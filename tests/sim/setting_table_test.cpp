@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -303,16 +304,20 @@ TEST(SettingTable, TakesTheEndsThatItNamesToPersons) {
     ++typed;
     EXPECT_EQ(tick::setting_of_word(about.typed.word), &one);
     for (const double end : {about.range.least, about.range.most}) {
-      const double shown = std::stod(fmt::format("{:.6g}", about.typed.from_si(end)));
-      const Status good = tick::check_typed(about, shown);
+      base::Given shown = std::stod(fmt::format("{:.6g}", about.typed.from_si(end)));
+      if (about.kind == Kind::flag) shown = end != 0;
+      if (about.kind == Kind::choice)
+        shown = std::string(about.choices[static_cast<std::size_t>(end)]);
+      const auto good = tick::si_of(about, shown);
       EXPECT_TRUE(good) << about.typed.word << " " << good.error().text;
     }
     for (const double value : beyond(about)) {
       const double shown = std::isfinite(value) ? about.typed.from_si(value) : value;
-      const Status wrong = tick::check_typed(about, shown);
+      const auto wrong = tick::si_of(about, shown);
       ASSERT_FALSE(wrong) << about.typed.word << " " << shown;
-      EXPECT_TRUE(wrong.error().text.starts_with("must be " + tick::typed_range(about) + ", not "))
-          << wrong.error().text;
+      EXPECT_EQ(wrong.error().trouble, Trouble::usage);
+      EXPECT_EQ(wrong.error().text,
+                "must be " + tick::typed_range(about) + ", not " + tick::text_of(shown));
     }
   }
   EXPECT_GE(typed, 14);
@@ -320,23 +325,61 @@ TEST(SettingTable, TakesTheEndsThatItNamesToPersons) {
 }
 
 TEST(SettingTable, WhatPersonsTypeBecomesTheBitsOfTheSession) {
-  const auto si = [](const char* word, double value) {
-    return tick::setting_of_word(word)->about.typed.to_si(value);
+  const auto si = [](const char* word, const base::Given& value) {
+    return *tick::si_of(tick::setting_of_word(word)->about, value);
   };
-  for (const double value : {0.7, 3.1, 4.0, 5.3, 30.0, 123.456, 40'000.0, 77'777.7}) {
+  for (const double value : {0.7, 3.1, 4.0, 5.3, 6.123456, 7.0}) {
     EXPECT_EQ(bits(si("burr_mm", value)), bits(0.5e-3 * value));
-    EXPECT_EQ(bits(si("rpm", value)), bits(value * 2 * std::numbers::pi / 60));
+    EXPECT_EQ(bits(si("rpm", 1e4 * value)), bits(1e4 * value * 2 * std::numbers::pi / 60));
     EXPECT_EQ(bits(si("torque_mnm", value)), bits(1e-3 * value));
     EXPECT_EQ(bits(si("drag", value)), bits(value));
   }
-  EXPECT_EQ(tick::check_typed(tick::setting_of_word("torque_mnm")->about, -1).error().text,
-            "must be a number from 0 to 1000 mN m, not -1");
-  EXPECT_EQ(tick::check_typed(tick::setting_of_word("burr_mm")->about, 0.5).error().text,
-            "must be a number from 0.6 to 7 mm, not 0.5");
-  EXPECT_EQ(tick::check_typed(tick::setting_of_word("rpm")->about, 6e5).error().text,
-            "must be a number from -500000 to 500000 1/min, not 600000");
-  EXPECT_EQ(tick::check_typed(tick::setting_of_word("teeth")->about, 2.5).error().text,
-            "must be a whole number from 1 to 64, not 2.5");
+  EXPECT_EQ(si("guard", true), 1);
+  EXPECT_EQ(si("touch", std::string("shaft")), static_cast<double>(haptics::Method::shaft));
+  EXPECT_EQ(si("teeth", std::int64_t{7}), 7);
+  EXPECT_EQ(si("drag", std::int64_t{2}), 2);
+}
+
+TEST(SettingTable, RefusesWhatPersonsTypeInOneSentence) {
+  const auto said = [](const char* word, const base::Given& value) {
+    return tick::si_of(tick::setting_of_word(word)->about, value).error().text;
+  };
+  EXPECT_EQ(said("torque_mnm", -1.0), "must be a number from 0 to 1000 mN m, not -1");
+  EXPECT_EQ(said("burr_mm", 0.5), "must be a number from 0.6 to 7 mm, not 0.5");
+  EXPECT_EQ(said("rpm", 6e5), "must be a number from -500000 to 500000 1/min, not 600000");
+  EXPECT_EQ(said("teeth", 2.5), "must be a whole number from 1 to 64, not 2.5");
+  EXPECT_EQ(said("teeth", std::string("many")),
+            "must be a whole number from 1 to 64, not \"many\"");
+  EXPECT_EQ(said("guard", std::int64_t{1}), "must be true or false, not 1");
+  EXPECT_EQ(said("drag", true), "must be a number from 0 to 10, not true");
+  EXPECT_EQ(said("removal", std::string("wish")),
+            "must be one of energy, thesis, chips, not \"wish\"");
+  EXPECT_EQ(said("removal", std::string("a\x1b[2J\n")),
+            "must be one of energy, thesis, chips, not \"a?[2J?\"");
+}
+
+// What is not among them stays; an error begins with the caller's word.
+TEST(SettingTable, ManyAreTakenAtOnce) {
+  const auto word_of = [](const About& about) { return "its " + std::string(about.typed.word); };
+  tick::ServoSettings servo;
+  ASSERT_TRUE(tick::take_typed({{"drag", 3.0}, {"guard", true}}, word_of, servo));
+  EXPECT_EQ(servo.drag_gain, 3);
+  EXPECT_TRUE(servo.guarded);
+  EXPECT_EQ(servo.rate_hz, tick::ServoSettings().rate_hz);
+  const Status wrong = tick::take_typed({{"rate_hz", 20.0}}, word_of, servo);
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().text, "its rate_hz: must be a number from 500 to 10000 Hz, not 20");
+}
+
+// Whoever says nothing on the command line or in Python gets the session that C++ gives.
+TEST(SettingTable, TheUsualIsTheSameForAll) {
+  tick::ServoSettings servo;
+  ASSERT_TRUE(tick::take_typed(
+      tick::usual_values(), [](const About&) { return std::string(); }, servo));
+  for (const Setting<tick::ServoSettings>& one : tick::servo_settings()) {
+    const double usual = one.get(tick::ServoSettings());
+    EXPECT_NEAR(one.get(servo), usual, 1e-6 * std::abs(usual)) << one.about.name;
+  }
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ TEST(TwoHandsSession, RefusesAToolThinnerThanAVoxel) {
                                second);
   ASSERT_FALSE(joined.ok());
   EXPECT_EQ(joined.error().trouble, Trouble::usage);
-  EXPECT_NE(joined.error().text.find("--second-tool sagittal-saw"), std::string::npos);
+  EXPECT_NE(joined.error().text.find("the second tool sagittal-saw"), std::string::npos);
 }
 
 // ---- recorded, read back and simulated again

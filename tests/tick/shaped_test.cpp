@@ -467,7 +467,7 @@ TEST(RackInASession, ATooCoarseBoneAndAnotherLawAreRefusedWithTheRemedy) {
     return made.ok() ? std::string() : made.error().text;
   };
   sim::SessionSettings settings = with_tool(of_rack("reciprocating-saw"));
-  EXPECT_NE(refused(settings, 0.6 * kMm).find("--voxel-mm 0.500"), std::string::npos);
+  EXPECT_NE(refused(settings, 0.6 * kMm).find("voxels of 0.500 mm or finer"), std::string::npos);
   settings.servo.removal.law = edit::RemovalLaw::chips;
   EXPECT_NE(refused(settings, 0.25 * kMm).find("chips"), std::string::npos);
 }

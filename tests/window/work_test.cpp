@@ -81,7 +81,8 @@ TEST(Work, ABurrThatFitsStaysAsAskedFor) {
 TEST(Work, VoxelsTooCoarseForAnyBurrAreRefusedWithTheRemedy) {
   const auto ready = ball_of(2, 0);
   ASSERT_FALSE(ready);
-  EXPECT_NE(ready.error().text.find("--voxel-mm 1.250"), std::string::npos) << ready.error().text;
+  EXPECT_NE(ready.error().text.find("voxels of 1.250 mm or finer"), std::string::npos)
+      << ready.error().text;
 }
 
 }  // namespace

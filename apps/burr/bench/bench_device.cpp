@@ -19,6 +19,7 @@
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
 #include "shared/make_ready.h"
+#include "shared/setting_options.h"
 #include "shared/volume_words.h"
 #include "shared/work.h"
 
@@ -161,7 +162,7 @@ void add(CLI::App& bench, Todo& todo) {
       ->add_option("--echo-seconds", options->echo_s, "length of the idle echo before the session")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
-  command->add_option("--burr-mm", options->work.burr_mm, "diameter of the burr");
+  add_setting_option(*command, "burr_mm", options->work.burr_mm);
   command->add_flag("--json", options->json, "one JSON object");
   add_hand_options(*command, options->work.hand);
   command->add_option("--suction", options->work.suction,

@@ -26,6 +26,7 @@
 #include "shared/json_line.h"
 #include "shared/outputs.h"
 #include "shared/picture_size.h"
+#include "shared/setting_options.h"
 #include "shared/volume_words.h"
 
 namespace burr::app {
@@ -183,8 +184,8 @@ void add(CLI::App& bench, Todo& todo) {
   command->add_option("--busy", options->whole.busy, "threads that only use processor time")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")->capture_default_str();
-  command->add_option("--rate", options->rate_hz, "ticks a second")->capture_default_str();
+  add_setting_option(*command, "burr_mm", options->burr_mm);
+  add_setting_option(*command, "rate_hz", options->rate_hz);
   command->add_option("--record", options->whole.record,
                       "F.mcap: keep the recording (default: record and delete it)");
   command->add_flag("!--no-picture", options->whole.picture,

@@ -42,6 +42,7 @@
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
 #include "shared/picture_size.h"
+#include "shared/setting_options.h"
 #include "shared/volume_words.h"
 
 namespace burr::app {
@@ -415,8 +416,8 @@ void add(CLI::App& bench, Todo& todo) {
   command->add_option("--turns", options->turns, "largest number of frames at full quality")
       ->check(CLI::Range(2, 10'000))
       ->capture_default_str();
-  command->add_option("--burr-mm", options->burr_mm, "diameter of the burr")->capture_default_str();
-  command->add_option("--rate", options->rate_hz, "ticks a second")->capture_default_str();
+  add_setting_option(*command, "burr_mm", options->burr_mm);
+  add_setting_option(*command, "rate_hz", options->rate_hz);
   command->add_flag("--json", options->json, "one JSON object on the last line");
   add_picture_size(*command, options->size);
   add_volume_options(*command, options->volume);

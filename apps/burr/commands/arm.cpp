@@ -16,6 +16,7 @@
 #include "shared/json_line.h"
 #include "shared/outputs.h"
 #include "shared/recording.h"
+#include "shared/setting_options.h"
 #include "shared/volume_words.h"
 #include "shared/work.h"
 
@@ -117,10 +118,10 @@ void add(CLI::App& app, Todo& todo) {
       ->check(CLI::Range(0.1, 1e6));
   command->add_option("--record", options->record, "F.mcap: record the session");
   add_force(*command, options->force);
-  command->add_option("--burr-mm", options->work.burr_mm,
-                      "diameter of the burr (default: that of the case, otherwise 5)");
-  command->add_option("--rpm", options->work.rpm,
-                      "speed of the spindle (default: that of the case, otherwise 40000)");
+  add_setting_option(*command, "burr_mm", options->work.burr_mm,
+                     "diameter of the burr (default: that of the case, otherwise 5)");
+  add_setting_option(*command, "rpm", options->work.rpm,
+                     "speed of the spindle (default: that of the case, otherwise 40000)");
   command->add_flag("--json", options->json, "one JSON object on the last line");
   add_volume_options(*command, options->work.volume);
   command->callback([options, &todo] { todo.work = [options] { return run(*options); }; });

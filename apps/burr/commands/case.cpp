@@ -21,6 +21,7 @@
 #include "burr/scenario/lesson.h"
 #include "burr/scenario/open_lesson.h"
 #include "burr/scoring/step_done.h"
+#include "burr/workshop/case_session.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
@@ -73,6 +74,7 @@ Status run_check(const Options& options) {
   auto work = scenario::read_case(options.name);
   if (!work) return work.error();
   if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken;
+  if (const Status set = workshop::check_session(*work); !set) return set;
   const std::string file = work->name + ".toml";
   auto read = scenario::lesson_of(*work);
   if (!read) return read.error();

@@ -89,6 +89,8 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"learner cohort add", "\"autumn 2026\" kestrel-27 otter-512", "a class"},
     {"repair", "s.mcap", "in place"},
     {"repair", "s.mcap --out whole.mcap", "leaves s.mcap as it is"},
+    {"settings", "", "what `burr mill` takes"},
+    {"settings", "--markdown", "the whole table, as docs/use/settings.md"},
     {"materials", "", "the built-in table"},
     {"materials", "--materials mine.toml --json", "with your own values"},
     {"tools", "", "the built-in rack"},

@@ -21,6 +21,8 @@
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
+#include "burr/workshop/tool_looks.h"
+#include "burr/workshop/work_view.h"
 #include "commands/run_folder.h"
 #include "commands/run_headless.h"
 #include "commands/summary.h"
@@ -34,6 +36,7 @@
 #include "shared/make_ready.h"
 #include "shared/outputs.h"
 #include "shared/recording.h"
+#include "shared/setting_options.h"
 #include "shared/volume_words.h"
 #include "shared/words.h"
 #include "shared/work.h"
@@ -275,8 +278,8 @@ void add(CLI::App& app, Todo& todo) {
                       "burr-out; in a window: none of these is written)");
   command->add_option("--screenshot", options->screenshot,
                       "PNG of the window when it closed, with panels");
-  command->add_option("--burr-mm", options->work.burr_mm,
-                      "diameter of the burr (default: that of the case, otherwise 5)");
+  add_setting_option(*command, "burr_mm", options->work.burr_mm,
+                     "diameter of the burr (default: that of the case, otherwise 5)");
   add_tool_options(*command, options->work.tool);
   auto* touch = command->add_option_function<std::string>(
       "--touch",
@@ -287,8 +290,8 @@ void add(CLI::App& app, Todo& todo) {
   add_law_options(*command, options->work.law);
   command->add_flag("--no-sound", options->no_sound, "the window makes no sound");
   command->add_flag("--xr", options->xr, "use a headset through OpenXR")->excludes("--headless");
-  command->add_option("--rpm", options->work.rpm,
-                      "speed of the spindle (default: that of the case, otherwise 40000)");
+  add_setting_option(*command, "rpm", options->work.rpm,
+                     "speed of the spindle (default: that of the case, otherwise 40000)");
   add_force(*command, options->force);
   add_hand_options(*command, options->work.hand);
   auto* second = command->add_option(

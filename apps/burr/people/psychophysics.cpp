@@ -25,6 +25,7 @@
 #include "shared/hand_options.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
+#include "shared/setting_options.h"
 
 namespace burr::app {
 namespace {
@@ -307,8 +308,7 @@ void add_psychophysics(CLI::App& app,
       ->capture_default_str();
   command->add_option("--seconds", options->seconds, "longest duration of an interval")
       ->capture_default_str();
-  command->add_option("--rate", options->rate_hz, "ticks a second, 500 to 10000")
-      ->capture_default_str();
+  add_setting_option(*command, "rate_hz", options->rate_hz);
   command->add_option("--seed", options->seed, "seed of orders and levels")->capture_default_str();
   command->add_option("--subject", options->subject,
                       "code of the person: at most 16 letters, digits, - and _; not a name");

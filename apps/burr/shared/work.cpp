@@ -51,6 +51,7 @@ Status take_case(WorkOptions& options) {
     if (const Status taken = workshop::take_bone(*read, options.bone); !taken) return taken;
     if (!read->rubric.empty())
       if (const Status fits = report::rubric_fits(*read); !fits) return fits;
+    if (const Status set = workshop::check_session(*read); !set) return set;
     take_case(options, *read);
   } else if (options.bone > 0) {
     return error(

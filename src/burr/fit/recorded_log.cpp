@@ -40,7 +40,7 @@ Result<Law> law_of(const record::SessionInfo& info, const std::string& file) {
   if (number("removal_law").value_or(0) == 1)
     return error(
         fmt::format("{}: was milled with the removal law of the thesis, which does not depend on "
-                    "force; record with --removal energy",
+                    "force; record with the law energy",
                     file));
   return law;
 }
@@ -75,7 +75,7 @@ Status check_step(const record::Step& step, tool::BurrKind kind, const record::S
     if (command.kind == tick::CommandKind::removal_law && command.value == 1)
       return error(
           fmt::format("{}: was partly milled with the removal law of the thesis, which does not "
-                      "depend on force; record with --removal energy",
+                      "depend on force; record with the law energy",
                       file));
   if (!(step.row.tool.radius > 0))
     return error(

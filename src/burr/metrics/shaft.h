@@ -27,7 +27,7 @@
 namespace burr::metrics {
 
 inline constexpr const char* kShaftNotFelt =
-    "the shaft did not touch in this session (burr run --touch shaft lets it)";
+    "the shaft did not touch in this session (the method of touch \"shaft\" lets it)";
 
 struct ShaftRest {
   std::size_t contacts = 0;

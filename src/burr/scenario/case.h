@@ -10,8 +10,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "burr/base/given.h"
 #include "burr/base/result.h"
 #include "burr/math/vec3.h"
 #include "burr/scenario/rack.h"
@@ -33,12 +35,27 @@ struct Target {
   double share = 1;  // required share, 0..1
 };
 
-// How a session on the case is set, [session]: the options of `burr mill`, by their names and in their
-// units, so that one file gives one hash wherever it is run. What is left out is as usual.
+// How a session on the case is set, [session]: settings by their words and in the units of persons
+// (docs/use/settings.md), so that one file gives one hash wherever it is run. What is left out is as usual.
+// Here they are as the file has them; workshop::take_session() knows which there are and what they may be.
 struct SessionWish {
-  std::optional<double> rate_hz, stiffness_n_per_m, drag, vibration, torque_mnm, teeth, undo_bricks;
-  std::optional<bool> guard, irrigation;
-  std::string touch, removal;  // empty: as usual
+  struct Field {
+    std::string word;
+    base::Given value;
+    std::uint32_t line = 0;  // of the file; 0: of none
+  };
+  std::vector<Field> fields;
+
+  // The last one of that word counts.
+  void set(std::string word, base::Given value) {
+    fields.push_back({std::move(word), std::move(value)});
+  }
+  // nullptr: it is left out
+  [[nodiscard]] const base::Given* get(std::string_view word) const {
+    for (auto one = fields.rbegin(); one != fields.rend(); ++one)
+      if (one->word == word) return &one->value;
+    return nullptr;
+  }
 };
 
 struct Case {

@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "burr/base/given.h"
 #include "burr/base/printable.h"
 #include "burr/base/result.h"
 #include "burr/math/vec3.h"
@@ -85,6 +86,25 @@ class Reader {
     if (!value || !(*value > above) || !(*value <= most))
       return fail(key, fmt::format("must be a number above {:g} and at most {:g}", above, most));
     out = *value;
+  }
+
+  // A number of [least, most], in the words of the table of settings (tick/setting_table.h); a limit counts
+  // as inside however it was rounded.
+  void setting(std::string_view key, double& out, double least, double most,
+               std::string_view unit) {
+    constexpr double kRounded = 1e-9;
+    const toml::node* node = find(key, true, "a number");
+    if (node == nullptr) return;
+    const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+    if (value && *value >= least - kRounded && *value <= most + kRounded) {
+      out = *value;
+      return;
+    }
+    const auto text = node->value<std::string>();
+    fail(key, fmt::format("must be a number from {:g} to {:g} {}, not {}", least, most, unit,
+                          value  ? fmt::format("{}", *value)
+                          : text ? fmt::format("\"{}\"", base::printable(*text))
+                                 : "this"));
   }
 
   // [least, most], 0 <= least < most or equal
@@ -215,6 +235,25 @@ class Reader {
         fail(key.str(), "must be a number");
       else
         read(key.str(), *value);
+    }
+  }
+
+  // calls read(key, what was given, its line) for every entry of the table
+  template <class Do>
+  void each_given(Do&& read) {
+    for (const auto& [key, node] : table_) {
+      base::Given value;
+      if (node.is_boolean())
+        value = node.template value_or<bool>(false);
+      else if (node.is_integer())
+        value = node.template value_or<std::int64_t>(0);
+      else if (node.is_floating_point())
+        value = node.template value_or<double>(0);
+      else if (node.is_string())
+        value = node.template value_or<std::string>("");
+      else
+        fail(key.str(), "must be a number, true or false, or text in quotes");
+      read(key.str(), std::move(value), line_of(node));
     }
   }
 

@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
-#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace burr::scenario {
@@ -33,29 +32,11 @@ void put(toml::table& table, std::string_view key, const std::string& value) {
   else
     table.insert_or_assign(key, value);
 }
-void put(toml::table& table, std::string_view key, const std::optional<double>& value) {
-  if (value) put(table, key, *value);
-}
-void put(toml::table& table, std::string_view key, const std::optional<bool>& value) {
-  if (value) table.insert_or_assign(key, *value);
-}
-void put_whole(toml::table& table, std::string_view key, const std::optional<double>& value) {
-  if (value) table.insert_or_assign(key, static_cast<std::int64_t>(*value));
-}
 
 toml::table session_table(const SessionWish& wish) {
   toml::table table;
-  put(table, "rate_hz", wish.rate_hz);
-  put(table, "stiffness_n_per_m", wish.stiffness_n_per_m);
-  put(table, "touch", wish.touch);
-  put(table, "removal", wish.removal);
-  put(table, "drag", wish.drag);
-  put(table, "vibration", wish.vibration);
-  put(table, "torque_mnm", wish.torque_mnm);
-  put_whole(table, "teeth", wish.teeth);
-  put_whole(table, "undo_bricks", wish.undo_bricks);
-  put(table, "guard", wish.guard);
-  put(table, "irrigation", wish.irrigation);
+  for (const SessionWish::Field& field : wish.fields)
+    std::visit([&](const auto& value) { table.insert_or_assign(field.word, value); }, field.value);
   return table;
 }
 

@@ -43,9 +43,9 @@ Status wait_for_bricks(Session& session, Progress& progress) {
     const std::uint32_t flags = session.outcome().flags;
     return error(Trouble::usage, (flags & rt::kFlagReserve) != 0
                                      ? "there is no room for the piece in its new place; raise "
-                                       "--reserve-bricks"
+                                       "reserve_bricks"
                                  : (flags & rt::kFlagUndoFull) != 0
-                                     ? "the piece is too large to be undone; raise --undo-bricks"
+                                     ? "the piece is too large to be undone; raise undo_bricks"
                                      : "the bone was changed while the piece was taken");
   }
   return error(Trouble::internal, "the piece was not put down in time");

@@ -23,15 +23,14 @@ constexpr std::uint64_t kStepsAtOnce = 64;  // of step(), between two that reser
 constexpr auto kAheadPause = std::chrono::milliseconds(5);  // between two calls that reserve memory
 
 // A part thinner than a voxel could slip between the points of bone that it touches.
-Status check_thickness(const char* option, const tool::ShapedTool& tool, double voxel) {
+Status check_thickness(const char* whose, const tool::ShapedTool& tool, double voxel) {
   const double thinnest = tool::thinnest(tool.tool);
   if (thinnest >= voxel - 1e-9) return fine();
   return error(
       Trouble::usage,
       fmt::format("{} {}: its thinnest part is {:.2f} mm, thinner than a voxel of {:.3f} mm; use "
-                  "--voxel-mm {:.3f} or finer (with --roi around the work, if memory is short)",
-                  option, tool.name, 1e3 * thinnest, 1e3 * voxel,
-                  std::floor(1e6 * thinnest) / 1e3));
+                  "voxels of {:.3f} mm or finer (of a region around the work, if memory is short)",
+                  whose, tool.name, 1e3 * thinnest, 1e3 * voxel, std::floor(1e6 * thinnest) / 1e3));
 }
 
 Status check_tools(const tick::ServoSettings& servo, double voxel) {
@@ -41,13 +40,13 @@ Status check_tools(const tick::ServoSettings& servo, double voxel) {
   if (servo.tool >= static_cast<int>(servo.tools.size()))
     return error(Trouble::internal, "the session has no tool of this number");
   for (const tool::ShapedTool& tool : servo.tools)
-    if (Status good = check_thickness("--tool", tool, voxel); !good.ok()) return good;
+    if (Status good = check_thickness("the tool", tool, voxel); !good.ok()) return good;
   if (servo.tool < 0) return fine();
   const tool::ShapedTool& tool = servo.tools[static_cast<std::size_t>(servo.tool)];
   if (servo.removal.law != edit::RemovalLaw::energy)
     return error(
         Trouble::usage,
-        fmt::format("--removal {} is for round burrs; leave it out with --tool {}",
+        fmt::format("the law of removal {} is for round burrs; leave it out with the tool {}",
                     edit::kLawNames[static_cast<std::size_t>(servo.removal.law)], tool.name));
   return fine();
 }
@@ -76,8 +75,8 @@ Result<std::unique_ptr<Session>> Session::make(std::unique_ptr<volume::Bone> bon
     return error(
         Trouble::usage,
         fmt::format("a burr of {:.2f} mm is smaller than 4 voxels of {:.3f} mm, so the voxels are "
-                    "too coarse for it; use --voxel-mm {:.3f} or finer (with --roi around the "
-                    "work, if memory is short), or --burr-mm {:.2f} or larger",
+                    "too coarse for it; use voxels of {:.3f} mm or finer (of a region around the "
+                    "work, if memory is short), or a burr of {:.2f} mm or larger",
                     2e3 * r, 1e3 * h, std::floor(1e6 * r / 2) / 1e3, std::ceil(4e5 * h) / 100));
   if (Status good = check_tools(servo, h); !good.ok()) return good.error();
 
@@ -120,7 +119,7 @@ Status Session::add_second_hand(std::unique_ptr<device::Device> device,
                                 const tick::SecondHandSettings& settings) {
   BURR_CHECK(second_ == nullptr && recorder_ == nullptr && !running());
   if (settings.tool)
-    if (Status good = check_thickness("--second-tool", *settings.tool, bone_->grid().voxel);
+    if (Status good = check_thickness("the second tool", *settings.tool, bone_->grid().voxel);
         !good.ok())
       return good;
   if (Status good = tick::check_settings(settings); !good) return good;

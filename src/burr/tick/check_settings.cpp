@@ -1,10 +1,15 @@
 // Refuses settings that no session can have (setting_table.h).
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 
 #include "burr/tick/second_hand.h"
 #include "burr/tick/setting_table.h"
@@ -12,9 +17,11 @@
 namespace burr::tick {
 namespace {
 
+using Kind = About::Kind;
+
 // The fewest digits that give the same value. Not by std::to_chars, which the library of the browser's
 // compiler lacks for numbers with a point.
-std::string text_of(double value) {
+std::string shortest(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   constexpr int kMostDigits = 17, kLongest = 15;
@@ -53,15 +60,14 @@ double rounded(double limit, bool most) {
 }
 
 std::string range_text(const About& about, double least, double most, const char* unit) {
-  if (about.kind == About::Kind::flag) return "0 or 1";
-  if (about.kind == About::Kind::choice) {
+  if (about.kind == Kind::choice) {
     std::string all;
     for (const std::string_view name : about.choices)
       all += (all.empty() ? "one of " : ", ") + std::string(name);
     return all;
   }
-  std::string all = about.kind == About::Kind::whole ? "a whole number from " : "a number from ";
-  all += text_of(rounded(least, false)) + " to " + text_of(rounded(most, true));
+  std::string all = about.kind == Kind::whole ? "a whole number from " : "a number from ";
+  all += shortest(rounded(least, false)) + " to " + shortest(rounded(most, true));
   if (*unit != '\0') all += std::string(" ") + unit;
   return all;
 }
@@ -69,7 +75,7 @@ std::string range_text(const About& about, double least, double most, const char
 Status check_one(const About& about, double value) {
   if (about.range.has(value)) return fine();
   return error(Trouble::usage, std::string(about.name) + ": must be " +
-                                   range_of(about, about.range) + ", not " + text_of(value));
+                                   range_of(about, about.range) + ", not " + shortest(value));
 }
 
 template <class Of>
@@ -77,6 +83,33 @@ Status check_all(std::span<const Setting<Of>> table, const Of& settings) {
   for (const Setting<Of>& one : table)
     if (Status good = check_one(one.about, one.get(settings)); !good) return good;
   return fine();
+}
+
+// Short, and without what moves a terminal's cursor; base/printable.h is no part of the core.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kMost = 60;
+  std::string all(text.substr(0, kMost));
+  for (char& c : all)
+    if (c < ' ' || c > '~') c = '?';
+  return '"' + all + (text.size() > kMost ? "...\"" : "\"");
+}
+
+// In the person's unit; none: it is of another kind.
+std::optional<double> number_of(const About& about, const base::Given& given) {
+  if (about.kind == Kind::flag) {
+    const bool* yes = std::get_if<bool>(&given);
+    return yes != nullptr ? std::optional<double>(*yes ? 1 : 0) : std::nullopt;
+  }
+  if (about.kind == Kind::choice) {
+    const std::string* name = std::get_if<std::string>(&given);
+    return name != nullptr ? choice_named(about, *name) : std::nullopt;
+  }
+  if (const std::int64_t* whole = std::get_if<std::int64_t>(&given))
+    return static_cast<double>(*whole);
+  const double* number = std::get_if<double>(&given);
+  const bool fits =
+      number != nullptr && (about.kind == Kind::number || *number == std::floor(*number));
+  return fits ? std::optional<double>(*number) : std::nullopt;
 }
 
 }  // namespace
@@ -104,26 +137,63 @@ Status check_settings(const device::DeviceSpec& spec) {
 }
 
 std::string typed_range(const About& about) {
+  if (about.kind == Kind::flag) return "true or false";
   const Typed& typed = about.typed;
   return range_text(about, typed.from_si(about.range.least), typed.from_si(about.range.most),
                     typed.unit);
 }
 
-Status check_typed(const About& about, double value) {
-  const bool whole = about.kind == About::Kind::number || value == std::floor(value);
-  if (whole && about.range.has(about.typed.to_si(value))) return fine();
-  return error(Trouble::usage, "must be " + typed_range(about) + ", not " + text_of(value));
-}
-
 std::string range_of(const About& about, const Range& range) {
+  if (about.kind == Kind::flag) return "0 or 1";
   return range_text(about, range.least, range.most, about.unit);
 }
 
-double typed_usual(const Setting<ServoSettings>& setting) {
-  return with_six_digits(setting.about.typed.from_si(setting.get(ServoSettings())));
+Result<double> si_of(const About& about, const base::Given& given) {
+  if (const std::optional<double> value = number_of(about, given)) {
+    const double si = about.typed.to_si(*value);
+    if (about.range.has(si)) return si;
+  }
+  return error(Trouble::usage, "must be " + typed_range(about) + ", not " + text_of(given));
 }
 
-std::string number_text(double value) { return text_of(with_six_digits(value)); }
+Status take_typed(const TypedValues& values,
+                  const std::function<std::string(const About&)>& word_of,
+                  ServoSettings& settings) {
+  for (const Setting<ServoSettings>& one : servo_settings()) {
+    if (one.about.typed.word == nullptr) continue;
+    const auto given = values.find(std::string_view(one.about.typed.word));
+    if (given == values.end()) continue;
+    const Result<double> si = si_of(one.about, given->second);
+    if (!si) return error(si.error().trouble, word_of(one.about) + ": " + si.error().text);
+    one.set(settings, *si);
+  }
+  return fine();
+}
+
+base::Given usual_value(const Setting<ServoSettings>& setting) {
+  const About& about = setting.about;
+  const double usual = setting.get(ServoSettings());
+  if (about.kind == Kind::flag) return usual != 0;
+  if (about.kind == Kind::choice)
+    return std::string(about.choices[static_cast<std::size_t>(usual)]);
+  const double typed = with_six_digits(about.typed.from_si(usual));
+  if (about.kind == Kind::whole) return static_cast<std::int64_t>(typed);
+  return typed;
+}
+
+TypedValues usual_values() {
+  TypedValues all;
+  for (const Setting<ServoSettings>& one : servo_settings())
+    if (one.about.typed.word != nullptr) all[one.about.typed.word] = usual_value(one);
+  return all;
+}
+
+std::string text_of(const base::Given& given) {
+  if (const bool* yes = std::get_if<bool>(&given)) return *yes ? "true" : "false";
+  if (const double* number = std::get_if<double>(&given)) return shortest(*number);
+  if (const std::int64_t* whole = std::get_if<std::int64_t>(&given)) return std::to_string(*whole);
+  return quoted(std::get<std::string>(given));
+}
 
 std::optional<double> choice_named(const About& about, std::string_view name) {
   const auto found = std::find(about.choices.begin(), about.choices.end(), name);

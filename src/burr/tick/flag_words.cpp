@@ -28,16 +28,15 @@ constexpr std::pair<std::uint32_t, const char*> kWords[] = {
      "the machine was too slow, or the burr too large, to cut every brick in every tick; the "
      "bricks were cut in turn (docs/understand/realtime.md, \"Too much at once\")"},
     {rt::kFlagReserve,
-     "there was no room left for new material or new surface; raise --reserve-bricks"},
+     "there was no room left for new material or new surface; raise reserve_bricks"},
     {rt::kFlagUndoFull,
-     "undo memory was full and the oldest stroke was forgotten; raise --undo-bricks"},
+     "undo memory was full and the oldest stroke was forgotten; raise undo_bricks"},
     {rt::kFlagHandLost, "the device lost the hand's position; the force was released"},
     {rt::kFlagRestoring, "an undo or a reset was in progress"},
     {rt::kFlagGuarded,
      "the energy guard damped the hand: the spring is stiffer than this device can render; lower "
-     "--stiffness"},
-    {rt::kFlagStalled,
-     "the bone stopped the spindle; press less, or raise the motor's torque (--torque-mnm)"},
+     "the stiffness"},
+    {rt::kFlagStalled, "the bone stopped the spindle; press less, or raise the motor's torque"},
     {rt::kFlagShaft, "the shaft, or another part of the tool that does not cut, was on bone"},
     {rt::kFlagLaw,
      "the law of your own gave a number that cannot be, or could not answer: it was switched off, "

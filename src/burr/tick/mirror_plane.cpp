@@ -55,7 +55,7 @@ Error wrong(std::string_view text) {
   std::string names;
   for (const auto& name : kPlaneNames) names.append(names.empty() ? "" : ", ").append(name);
   return error(Trouble::usage,
-               "--mirror: '" + std::string(text) + "' is no plane; give one of " + names +
+               "'" + std::string(text) + "' is no plane; give one of " + names +
                    ", and if it is not through the middle a comma and how far from it in mm: "
                    "sagittal,-3.5");
 }
@@ -92,7 +92,7 @@ Result<edit::Mirror> mirror_in_words(std::string_view text, const volume::Grid& 
   if (!(place >= 0 && place <= grid.size[axis] - 1.0)) {
     char why[160];
     std::snprintf(why, sizeof why,
-                  "--mirror: %g mm from the middle is outside of the volume, which reaches %.1f mm "
+                  "%g mm from the middle is outside of the volume, which reaches %.1f mm "
                   "to either side",
                   mm, 1e3 * middle(grid, axis) * grid.voxel);
     return error(Trouble::usage, why);

@@ -51,6 +51,12 @@ constexpr Typed said(Typed by_persons, const char* help) {
   by_persons.help = help;
   return by_persons;
 }
+// The command line and Python call it otherwise.
+constexpr Typed called(Typed by_persons, const char* option, const char* property) {
+  by_persons.option = option;
+  by_persons.property = property;
+  return by_persons;
+}
 constexpr Typed in_burr(Typed by_persons) {
   by_persons.place = Typed::Place::burr;
   return by_persons;
@@ -77,7 +83,7 @@ struct OfServo {
   static constexpr Setting<Of> kAll[] = {
       {number("rate_hz", "Hz", {500, 10'000}, "ticks a second")
            .read_from(1, 100'000)
-           .as(in_session(typed("rate_hz", "Hz"))),
+           .as(in_session(called(typed("rate_hz", "Hz"), "rate", nullptr))),
        BURR_AT(rate_hz)},
       // the tool
       {number("burr_radius_m", "m", kRadius, "radius of the burr's head")
@@ -102,7 +108,7 @@ struct OfServo {
        BURR_AT(mode)},
       {flag("irrigated", "coolant runs over the burr from the start")
            .from_day("2026-11-23", 0)
-           .as(in_session(typed("irrigation"))),
+           .as(in_session(called(typed("irrigation"), nullptr, "irrigated"))),
        BURR_AT(irrigated)},
       // the spindle
       {number("spindle_rad_s", "rad/s", {-kFastest, kFastest},
@@ -130,12 +136,12 @@ struct OfServo {
       {number("stiffness_n_per_m", "N/m", {1, 1e6},
               "stiffness of the spring to the hand, limited by the device")
            .read_from(0, 1e6)
-           .as(in_session(typed("stiffness_n_per_m", "N/m"))),
+           .as(in_session(called(typed("stiffness_n_per_m", "N/m"), "stiffness", nullptr))),
        BURR_AT(force.stiffness)},
       {number("damping_n_s_per_m", "N s/m", {0, 1e4}, "damping of a burr that comes closer"),
        BURR_AT(force.damping)},
       {flag("guarded", "energy guard: the hand never gets back more energy than it gave")
-           .as(in_session(typed("guard"))),
+           .as(in_session(called(typed("guard"), nullptr, "guarded"))),
        BURR_AT(guarded)},
       {number("guard_slack_j", "J", kShare, "energy that the guard lets pass"),
        BURR_AT(guard_slack)},

@@ -1,5 +1,6 @@
 // tick/setting_table.h - every setting of a session that a recording keeps, each once: its name, unit,
-// range and meaning, and how to reach it. Recordings are loops over it, and every session checks it.
+// range and meaning, and how to reach it. Recordings, cases, the command line, Python and
+// docs/use/settings.md are loops over it, and every session checks it.
 //
 //     for (const Setting<ServoSettings>& one : servo_settings()) one.set(servo, one.get(other));
 //     if (Status good = check_settings(servo); !good) return good.error();
@@ -11,11 +12,14 @@
 // Thread: any. Units: SI; a person gives some settings in other ones (Typed).
 #pragma once
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "burr/base/given.h"
 #include "burr/base/result.h"
 #include "burr/device/hand.h"
 #include "burr/haptics/safety/limit.h"
@@ -39,8 +43,10 @@ struct Typed {
   double (*to_si)(double) = nullptr;
   double (*from_si)(double) = nullptr;  // to say a limit; not exact to the bit
   const char* help = "";                // "": as About::help
-  // Where it stands in a case; where it stands in neither, only the command line has it.
+  // Where it stands in a case; where it stands in neither, no case has it.
   enum class Place { neither, session, burr } place = Place::neither;
+  // Its names on the command line and in Python, where they are not the word: "rate", "guarded".
+  const char *option = nullptr, *property = nullptr;
 };
 
 struct About {
@@ -100,17 +106,25 @@ struct Setting {
 [[nodiscard]] Status check_settings(const SecondHandSettings& settings);
 [[nodiscard]] Status check_settings(const device::DeviceSpec& spec);
 
-// For a value that a person gave, in the person's unit; fine: it becomes a setting by Typed::to_si.
-// "must be a number from 0 to 1000 mN m, not -5": the caller puts its own word for the setting in front.
-[[nodiscard]] Status check_typed(const About& about, double value);
-// "a number from 0 to 1000 mN m"
+// What persons gave, by Typed::word and in their units.
+using TypedValues = std::map<std::string, base::Given, std::less<>>;
+// Each as a session has it if nobody says anything, with six digits at the most.
+[[nodiscard]] TypedValues usual_values();
+[[nodiscard]] base::Given usual_value(const Setting<ServoSettings>& setting);
+// The value in SI, to the bit the same for each front. Error: "must be a number from 0 to 1000 mN m, not
+// -5"; the caller puts its own word for the setting in front.
+[[nodiscard]] Result<double> si_of(const About& about, const base::Given& given);
+// They become settings; what is not among them stays. Error: as si_of(), after word_of(about) and ": ".
+[[nodiscard]] Status take_typed(const TypedValues& values,
+                                const std::function<std::string(const About&)>& word_of,
+                                ServoSettings& settings);
+
+// "a number from 0 to 1000 mN m", "true or false"
 [[nodiscard]] std::string typed_range(const About& about);
 // The same in SI: "a number from 0 to 1 N m", of a new session or of a recording.
 [[nodiscard]] std::string range_of(const About& about, const Range& range);
-// With six digits at the most: "0.0003"
-[[nodiscard]] std::string number_text(double value);
-// What a person would type for the value that a session has if nobody says anything.
-[[nodiscard]] double typed_usual(const Setting<ServoSettings>& setting);
+// As an error says it: 0.0003, true, "constraint"
+[[nodiscard]] std::string text_of(const base::Given& given);
 // The value of one of About::choices; none: it has no such name.
 [[nodiscard]] std::optional<double> choice_named(const About& about, std::string_view name);
 

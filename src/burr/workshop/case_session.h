@@ -1,6 +1,6 @@
 // workshop/case_session.h - what a case wants of a session, [session] in its file, becomes settings.
 //
-// Thread: any. Errors: one sentence with the file and the field.
+// Thread: any. Errors: one sentence with the file, the line and the field.
 #pragma once
 
 #include "burr/base/result.h"
@@ -9,8 +9,10 @@
 
 namespace burr::workshop {
 
-// What the case does not name stays. Its tool and its burr are not part of it. Error: a method of
-// touch or a law of removal that does not exist.
+// What the case does not name stays. Its tool and its burr are not part of it. Error: a field that the
+// table of settings (tick/setting_table.h) does not have, or does not take.
 [[nodiscard]] Status take_session(const scenario::Case& work, tick::ServoSettings& servo);
+// The error alone, for who needs no settings.
+[[nodiscard]] Status check_session(const scenario::Case& work);
 
 }  // namespace burr::workshop

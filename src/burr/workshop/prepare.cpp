@@ -19,13 +19,13 @@ double rad_s(double rpm) { return rpm * 2 * std::numbers::pi / 60; }
 Result<Prepared> prepare(const scenario::Recipe& recipe, const scenario::Case* work,
                          const Tool& tool, const io::Scan* scan, bool keep_greys,
                          Progress& progress) {
+  if (work != nullptr)
+    if (const Status set = check_session(*work); !set) return set.error();
   auto made = open_bone(recipe, progress, scan, keep_greys);
   if (!made) return made.error();
   if (work != nullptr) {
     const Status fits = scenario::check_tissues(*work, made->bone->tissues());
     if (!fits) return fits.error();
-    tick::ServoSettings tried;
-    if (const Status set = take_session(*work, tried); !set) return set.error();
   }
   double diameter_mm = tool.diameter_mm > 0 ? tool.diameter_mm
                        : work != nullptr    ? scenario::burr_mm(*work)
