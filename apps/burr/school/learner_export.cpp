@@ -17,11 +17,11 @@
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
-#include "burr/words/words.h"
 #include "school/store_command.h"
 #include "shared/command.h"
 #include "shared/counted.h"
 #include "shared/outputs.h"
+#include "shared/words.h"
 
 namespace burr::app {
 namespace {

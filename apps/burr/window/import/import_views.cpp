@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "burr/words/words.h"
+#include "shared/words.h"
 #include "window/import/import_page.h"
 
 namespace burr::app {

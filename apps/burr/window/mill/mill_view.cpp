@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "burr/words/words.h"
+#include "shared/words.h"
 #include "window/mill/mill.h"
 
 namespace burr::app {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "burr/words/words.h"
+#include "shared/words.h"
 #include "window/parts/icons.h"
 #include "window/ui/printed_keys.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "burr/tick/servo.h"
-#include "burr/words/words.h"
+#include "shared/words.h"
 #include "window/parts/action.h"
 #include "window/ui/ui.h"
 
