@@ -48,18 +48,18 @@ inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
 // The text or bytes of a schema, as written in the file.
 [[nodiscard]] std::string schema_data(std::string_view schema_name);
 
-// ---- ticks
+// ---- ticks (tick_columns.cpp)
 void encode_ticks(std::span<const tick::TickRow> rows, BytesOut& out);
 // Appends the rows of a message. False: malformed, nothing is appended.
 [[nodiscard]] bool decode_ticks(ByteSpan message, std::vector<tick::TickRow>& rows);
 // Bytes of a row that are written; for the test that no field is forgotten.
 [[nodiscard]] std::size_t tick_columns_size();
 
-// ---- commands
+// ---- commands (command_json.cpp)
 [[nodiscard]] std::string to_json(const tick::CommandRow& row);
 [[nodiscard]] bool command_from_json(std::string_view text, tick::CommandRow& row);
 
-// ---- bricks
+// ---- bricks (bricks.cpp)
 // The content of a brick; tissue only where it differs from the bone as it was opened.
 struct BrickContent {
   volume::BrickField field = {};

@@ -1,5 +1,5 @@
 // tick/rows.h - the rows of a recording. Plain structs; the file holds named fields
-// (record/schema.cpp), not the bytes of these structs.
+// (record/tick_columns.cpp), not the bytes of these structs.
 //
 // Frame: world (LPS). Units: SI.
 //

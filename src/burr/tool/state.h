@@ -1,5 +1,5 @@
 // tool/state.h - the tool in the hand as it is in one tick: what the servo really uses, after each
-// command of that tick was obeyed or refused. Every recorded tick holds one (record/schema.cpp).
+// command of that tick was obeyed or refused. Every recorded tick holds one (record/tick_columns.cpp).
 //
 // Plain struct. A round burr is named by its radius, another tool by its number in the session's list. Units: SI. Frame of the mirror: the grid's.
 #pragma once
