@@ -15,7 +15,6 @@ WHOLE = {
     "src/burr/haptics/proxy.cpp": "one tick of the proxy, whose steps the compiler makes into one",
     "src/burr/haptics/six/six_proxy.cpp": "one tick of the proxy of six unknowns, likewise",
     "src/burr/importing/tissue_names.cpp": "one table of words, and the rules by which it is read",
-    "apps/burr/commands/mill.cpp": "is being divided",
 }
 
 
