@@ -170,12 +170,12 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # AddressSanitizer and UndefinedBehaviorSanitizer: code that reads files, and code that moves
   # memory. clang++ compiles it in a third of g++'s time, and the fuzzers below use the same
   # library. Sanitized code is several times slower, so the longest random tests run in the release
-  # build only. The rooms that compute, and those whose libraries are large (Boost.Beast, databases), are
-  # for the full tier.
+  # build only. The rooms that compute, those whose libraries are large (Boost.Beast, databases), and the
+  # fuzzers are for the full tier.
   set(asan_rooms base volume edit surface io importing record)
   set(asan_more_rooms rt math tool haptics tick device school net)
   set(asan_filter_haptics "-*Million*:*Random*")
-  set(asan_filter_importing "-ScanLaw.WhatIsKeptIsWhatTheMeshHas")  # the longest of random shapes
+  set(asan_filter_importing "-ScanLaw.WhatIsKeptIsWhatTheMeshHas:ScanLaw.HoldsForRealScans")  # long, and shorter tests take the same way
   set(asan_filter_io "-Corpus.*")  # needs the program, which is not built here; CorpusAgainst reads
                                    # the same files
   # bounds of forces, which the release build tests; and an arm on DDS, whose opening takes 36 ms
@@ -184,10 +184,10 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   set(asan_filter_record "-Player.OpensAnyMomentOfTenMinutesAtOnce")  # long, and shorter tests take the same way
   list(TRANSFORM asan_rooms PREPEND test_ OUTPUT_VARIABLE asan_targets)
   list(TRANSFORM asan_more_rooms PREPEND test_ OUTPUT_VARIABLE asan_more_targets)
-  burr_other_build(asan ${asan_targets} same_bits fuzzers)
+  burr_other_build(asan ${asan_targets} same_bits)
   burr_same_bits(asan pocket plunge scan)
   # in the same folder, after the others
-  add_test(NAME asan.more_build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_SOURCE_DIR}/build/asan --target ${asan_more_targets})
+  add_test(NAME asan.more_build COMMAND ${CMAKE_COMMAND} --build ${PROJECT_SOURCE_DIR}/build/asan --target ${asan_more_targets} fuzzers)
   set_tests_properties(asan.more_build PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP asan_more_programs
     PROCESSORS ${BURR_PROCESSORS} TIMEOUT 3000 LABELS long)
   foreach(room ${asan_rooms} ${asan_more_rooms})
@@ -245,12 +245,12 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
 
   # libFuzzer: 3 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)
-  set_tests_properties(fuzz.seeds PROPERTIES FIXTURES_REQUIRED asan_programs FIXTURES_SETUP fuzz_seeds LABELS long)
+  set_tests_properties(fuzz.seeds PROPERTIES FIXTURES_REQUIRED asan_more_programs FIXTURES_SETUP fuzz_seeds LABELS long)
   file(GLOB fuzz_targets CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/fuzz ${PROJECT_SOURCE_DIR}/fuzz/*_fuzz.cpp)
   foreach(file ${fuzz_targets})
     string(REGEX REPLACE "_fuzz\\.cpp$" "" name ${file})
     add_test(NAME fuzz.${name} COMMAND ${checks}/fuzz.sh ${name} 3)
-    set_tests_properties(fuzz.${name} PROPERTIES FIXTURES_REQUIRED "asan_programs;fuzz_seeds" TIMEOUT 300 LABELS long)
+    set_tests_properties(fuzz.${name} PROPERTIES FIXTURES_REQUIRED "asan_more_programs;fuzz_seeds" TIMEOUT 300 LABELS long)
   endforeach()
 endif()
 

@@ -79,4 +79,5 @@ foreach(sample ${BURR_SAMPLES})
   get_filename_component(name ${sample} NAME_WE)
   add_executable(${name} ${sample})
   target_link_libraries(${name} PRIVATE burr burr_options)  # what an installation offers, samples/installed
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)  # they only call the library
 endforeach()

@@ -3,7 +3,7 @@
 set(full_1 "^tsan[.]")
 set(full_2 "^clang[.]|^portable[.]aarch64")
 set(full_3 "^portable[.](web|windows)|^page$|^school_page$")
-set(full_4 "^batch_slurm$|^house[.](package|install|headers_compile_alone|tidy)$|^asan[.](more_build|rt|math|tool|haptics|tick|device|school|net)$")
+set(full_4 "^batch_slurm$|^fuzz[.]|^house[.](package|install|headers_compile_alone|tidy)$|^asan[.](more_build|rt|math|tool|haptics|tick|device|school|net)$")
 get_property(tests DIRECTORY PROPERTY TESTS)  # not those that test programs tell ctest: they are all in `./test`
 foreach(test ${tests})
   foreach(part 1 2 3 4)

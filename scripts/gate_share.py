@@ -19,7 +19,7 @@ PARTS = {  # cmake/tiers.cmake says which tests these are
     1: "ThreadSanitizer",
     2: "the second compiler and 64-bit ARM",
     3: "the web page and Windows",
-    4: "Slurm, packages, installation, clang-tidy, each header alone, and AddressSanitizer of what reads no files",
+    4: "Slurm, packages, installation, clang-tidy, each header alone, fuzzers, and AddressSanitizer of what reads no files",
 }
 
 
