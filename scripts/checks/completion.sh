@@ -42,9 +42,12 @@ wants "nothing that there is" "" "$(offers no-such-command)"
 
 # every command and every option of each help is offered, and no other
 look() {
-  local help options sub
+  local help options sub both
   help=$(burr "$@" --help)
   options=$(sed -n '/^Options:/,/^$/s/^  \(-[a-z],\)\?\(--[a-z0-9-]*\).*/\2/p' <<<"$help" | xargs)
+  # newer CLI11 (Debian 13) refuses one name for both, when the program starts
+  both=$(sed -n '/^Positionals:/,/^$/s/^  \([a-z][a-z0-9-]*\) .*/--\1/p' <<<"$help" | grep -xFf <(tr ' ' '\n' <<<"$options") || true)
+  wants "positionals of burr $* that are named as an option is" "" "$both"
   wants "options of burr $*" "$options" "$(offers "$@" --)"
   local below
   mapfile -t below < <(sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z0-9-]*\) .*/\1/p' <<<"$help")

@@ -153,7 +153,7 @@ void add(CLI::App& bench, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command =
       bench.add_subcommand("device", "time from a pose on the wire to its force on the wire");
-  command->add_option("bone", options->work.volume.source,
+  command->add_option("volume", options->work.volume.source,
                       "a case or a scan (default: temporal-bone)");
   command->add_option("--seconds", options->seconds, "length of the session")
       ->check(CLI::Range(1.0, 36'000.0))

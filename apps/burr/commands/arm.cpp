@@ -104,7 +104,7 @@ void add(CLI::App& app, Todo& todo) {
   auto* command = app.add_subcommand("arm",
                                      "act as a CRTK robot arm that other programs move and watch "
                                      "(ROS 2 names; ROS itself is not needed)");
-  command->add_option("bone", options->work.volume.source,
+  command->add_option("volume", options->work.volume.source,
                       "a case or a scan (default: temporal-bone)");
   command->add_option("--name", options->arm.name, "name of the arm, in ROS form")
       ->capture_default_str();

@@ -262,7 +262,7 @@ Status run(Options options) {
 void add(CLI::App& app, Todo& todo) {
   auto options = std::make_shared<Options>();
   auto* command = app.add_subcommand("run", "mill a bone in a window");
-  command->add_option("bone", options->work.volume.source,
+  command->add_option("volume", options->work.volume.source,
                       "a case (temporal-bone, jaw, ... or a .toml file), or a scan: file or DICOM "
                       "folder (default: the start page; with --headless: temporal-bone)");
   command->add_flag(
