@@ -169,23 +169,29 @@ void TissuesBehind::look_aside(const math::Ijk& voxel, const math::Vec3& p_grid,
           std::max(0.0, kReach - std::abs(voxel[d] + n - kReach - p_grid[d]));
   const math::Ijk low = (voxel.array() - kReach).max(0);
   const math::Ijk high = (voxel.array() + kReach).min(size.array() - 1);
+  const volume::TissueTable& tissues = bone.tissues();
+  const TissueId mine = v.tissue;
   double own = 0;
   struct Other {
     TissueId tissue = 0;
     double weight = 0;
   };
   std::array<Other, 4> others;  // more do not meet within two voxels
-  for (int k = low.z(); k <= high.z(); ++k)
-    for (int j = low.y(); j <= high.y(); ++j)
+  const auto tent_at = [&](int axis, int at) {
+    return tent[static_cast<std::size_t>(axis)]
+               [static_cast<std::size_t>(at - voxel[axis] + kReach)];
+  };
+  for (int k = low.z(); k <= high.z(); ++k) {
+    if (tent_at(2, k) <= 0) continue;  // about every fifth voxel along each axis has no weight
+    for (int j = low.y(); j <= high.y(); ++j) {
+      if (tent_at(1, j) <= 0) continue;
       for (int i = low.x(); i <= high.x(); ++i) {
-        const double weight = tent[0][static_cast<std::size_t>(i - voxel.x() + kReach)] *
-                              tent[1][static_cast<std::size_t>(j - voxel.y() + kReach)] *
-                              tent[2][static_cast<std::size_t>(k - voxel.z() + kReach)];
+        const double weight = tent_at(0, i) * tent_at(1, j) * tent_at(2, k);
         if (weight <= 0) continue;
         const TissueId tissue = bone.shared_tissue(i, j, k);
-        if (tissue == v.tissue) {
+        if (tissue == mine) {
           own += weight;
-        } else if (bone.tissues()[tissue].kind == volume::TissueKind::solid) {
+        } else if (tissues[tissue].kind == volume::TissueKind::solid) {
           for (Other& other : others) {
             if (other.weight > 0 && other.tissue != tissue) continue;
             other.tissue = tissue;
@@ -194,6 +200,8 @@ void TissuesBehind::look_aside(const math::Ijk& voxel, const math::Vec3& p_grid,
           }
         }
       }
+    }
+  }
   const Other& second =
       *std::max_element(others.begin(), others.end(),
                         [](const Other& x, const Other& y) { return x.weight < y.weight; });
