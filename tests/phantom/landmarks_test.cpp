@@ -18,7 +18,7 @@
 namespace burr::phantom {
 namespace {
 
-const Landmark& landmark(const std::vector<Landmark>& all, const std::string& name) {
+const Landmark& landmark(const std::vector<Landmark>& all, std::string_view name) {
   for (const Landmark& one : all)
     if (one.name == name) return one;
   ADD_FAILURE() << "no landmark " << name;
