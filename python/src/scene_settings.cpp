@@ -14,15 +14,11 @@ namespace {
 
 using tick::About;
 
-const char* property_of(const About& about) {
-  return about.typed.property != nullptr ? about.typed.property : about.typed.word;
-}
-
 template <class Value>
 void add_as(py::class_<Scene>& scene, const About& about) {
   const char* word = about.typed.word;
   scene.def_property(
-      property_of(about),
+      tick::property_of(about),
       [word](const Scene& self) { return std::get<Value>(self.settings.at(word)); },
       [word](Scene& self, Value value) { self.settings[word] = std::move(value); });
 }
@@ -48,7 +44,8 @@ void Scene::put(const std::string& word, const base::Given& value) {
 tick::ServoSettings servo_of(const Scene& scene) {
   tick::ServoSettings servo;
   check(tick::take_typed(
-      scene.settings, [](const About& about) { return std::string(property_of(about)); }, servo));
+      scene.settings, [](const About& about) { return std::string(tick::property_of(about)); },
+      servo));
   return servo;
 }
 

@@ -1,5 +1,5 @@
-// apps/burr/commands/mill_options.h - what `burr mill` was told: its options, and what the case says where
-// they say nothing.
+// apps/burr/commands/mill_options.h - the options of `burr mill`. A value that was not typed is taken from the
+// case, if one was named.
 //
 // Thread: main.
 #pragma once

@@ -31,10 +31,6 @@ const char* meaning_of(const About& about) {
   return *about.typed.help != '\0' ? about.typed.help : about.help;
 }
 
-const char* property_of(const About& about) {
-  return about.typed.property != nullptr ? about.typed.property : about.typed.word;
-}
-
 std::string place_of(const About& about) {
   if (about.typed.place == Place::session) return fmt::format("`{}`", about.typed.word);
   return about.typed.place == Place::burr ? "`[burr]`" : "";
@@ -55,7 +51,7 @@ void print_given() {
     if (about.typed.word == nullptr) continue;
     const bool in_python = about.typed.place != Place::neither;
     fmt::print("|`{}`|{}|{}|{}|{}|{}|`{}`|\n", option_name(about), place_of(about),
-               in_python ? fmt::format("`{}`", property_of(about)) : "",
+               in_python ? fmt::format("`{}`", tick::property_of(about)) : "",
                short_range(tick::typed_range(about)), usual_of(one), meaning_of(about), about.name);
   }
 }

@@ -238,7 +238,7 @@ class Reader {
     }
   }
 
-  // calls read(key, what was given, its line) for every entry of the table
+  // calls read(key, value, line) for every entry of the table; line: of the entry in the file
   template <class Do>
   void each_given(Do&& read) {
     for (const auto& [key, node] : table_) {

@@ -148,6 +148,10 @@ std::string range_of(const About& about, const Range& range) {
   return range_text(about, range.least, range.most, about.unit);
 }
 
+const char* property_of(const About& about) {
+  return about.typed.property != nullptr ? about.typed.property : about.typed.word;
+}
+
 Result<double> si_of(const About& about, const base::Given& given) {
   if (const std::optional<double> value = number_of(about, given)) {
     const double si = about.typed.to_si(*value);

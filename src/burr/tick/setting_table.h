@@ -119,6 +119,8 @@ using TypedValues = std::map<std::string, base::Given, std::less<>>;
                                 const std::function<std::string(const About&)>& word_of,
                                 ServoSettings& settings);
 
+// Its name in Python.
+[[nodiscard]] const char* property_of(const About& about);
 // "a number from 0 to 1000 mN m", "true or false"
 [[nodiscard]] std::string typed_range(const About& about);
 // The same in SI: "a number from 0 to 1 N m", of a new session or of a recording.
