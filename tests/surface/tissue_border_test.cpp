@@ -71,5 +71,31 @@ TEST(TissueBorder, OfTwoSolidsIsASoftLineWithoutStairs) {
   EXPECT_GT(far, 500);
 }
 
+// The sum over every voxel of the bone, without any way to leave voxels out.
+TEST(TissueBorder, IsTheTentOverAllVoxels) {
+  const auto bone = two_tissues(test::askew({56, 40, 24}, 0.2e-3));
+  NoProgress quiet;
+  const auto mesh = whole_surface(*bone, 1, quiet);
+  ASSERT_TRUE(mesh);
+  int mixed = 0;
+  for (const Vertex& v : mesh->vertices) {
+    const math::Vec3 p = bone->grid().grid_from_world(v.p.cast<double>());
+    if (std::abs(p.z() - kTop) > 0.1 || std::abs(beyond(p)) > 3 || p.y() < 4 || p.y() > 35)
+      continue;
+    double own = 0, other = 0;
+    for (int k = 0; k < bone->grid().size.z(); ++k)
+      for (int j = 0; j < bone->grid().size.y(); ++j)
+        for (int i = 0; i < bone->grid().size.x(); ++i) {
+          const TissueId tissue = bone->tissue(i, j, k);
+          if (tissue == 0) continue;
+          const math::Vec3 tent = (2 - (math::Vec3(i, j, k) - p).array().abs()).max(0);
+          (tissue == v.tissue ? own : other) += tent.prod();
+        }
+    EXPECT_NEAR(v.through, 255 * other / (own + other), 1);
+    mixed += v.through > 0 ? 1 : 0;
+  }
+  EXPECT_GT(mixed, 50);
+}
+
 }  // namespace
 }  // namespace burr::surface
