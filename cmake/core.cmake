@@ -2,7 +2,7 @@
 # it starts no thread that its caller did not ask for. Compiled for x86-64, for ARM and for a browser
 # (cmake/portable.cmake), so nothing in these rooms may know more than rt/ does about the machine.
 set(BURR_CORE_SOURCES
-  base/check.cpp base/version.cpp device/hand_path.cpp device/simulated_hand.cpp)  # of rooms that are not core as a whole
+  base/check.cpp base/version.cpp device/hand_path.cpp device/pushed_hand.cpp device/simulated_hand.cpp)  # of rooms that are not core as a whole
 list(TRANSFORM BURR_CORE_SOURCES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 foreach(room math rt volume tool edit haptics surface thermal tick)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/${room}/*.cpp)

@@ -4,7 +4,7 @@
 //
 // The bone comes from the file, from its formula, or from the scan that lies beside the recording.
 // Prints a line per tissue, and the sum beside the ledger of the session, which must agree.
-#include <burr/workshop/recording.h>
+#include <burr/workshop/recorded_bone.h>
 
 #include <cmath>
 #include <cstdio>

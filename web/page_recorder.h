@@ -13,6 +13,7 @@
 #include "burr/record/pen.h"
 #include "burr/record/session_info.h"
 #include "burr/rt/ring.h"
+#include "burr/scenario/case.h"
 #include "burr/tick/outbox.h"
 #include "burr/tick/settings.h"
 #include "burr/volume/bone.h"

@@ -14,6 +14,7 @@
 #include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/law_file.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "burr/workshop/spared.h"
 #include "common.h"

@@ -15,6 +15,7 @@
 
 #include "burr/device/pushed_hand.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/edit/bone_memory.h"
 #include "burr/record/recorder.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/rack.h"

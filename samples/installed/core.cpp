@@ -1,10 +1,6 @@
 // samples/installed/core.cpp - burr_core alone: a scripted hand presses a burr into a ball of bone for
 // two seconds. Nothing but the C++ library is loaded, and no thread is started.
-#include <burr/base/progress.h>
-#include <burr/device/simulated_hand.h>
-#include <burr/tick/servo.h>
-#include <burr/volume/bone.h>
-#include <burr/volume/iso_vertices.h>
+#include <burr/core.h>
 
 #include <algorithm>
 #include <cstdio>

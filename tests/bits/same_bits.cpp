@@ -34,6 +34,7 @@
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/servo.h"
 #include "support/folder.h"
 
 namespace {

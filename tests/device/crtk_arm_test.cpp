@@ -13,6 +13,7 @@
 #include "burr/device/crtk/bus.h"
 #include "burr/math/rotation.h"
 #include "burr/sim/session.h"
+#include "burr/tick/servo.h"
 #include "device/fake/fake_crtk.h"
 #include "device/slab.h"
 #include "device/stand_in.h"

@@ -13,6 +13,7 @@
 #include "burr/device/mapping.h"
 #include "burr/haptics/contact.h"
 #include "burr/rt/flags.h"
+#include "burr/tick/fault_report.h"
 #include "device/players/every.h"
 #include "device/slab.h"
 #include "device/stand_in.h"

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "burr/device/device.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/sim/session.h"

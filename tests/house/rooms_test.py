@@ -55,6 +55,12 @@ class Rooms(unittest.TestCase):
         self.bad("base/word.h", '#include "burr/math/vec3.h"\n', "the arrow base -> math is not listed")
         self.bad("rt/word.h", '#include "burr/math/vec3.h"\n', "the arrow rt -> math is not listed")
 
+    def test_a_list_of_public_headers_lies_in_no_room(self):
+        code, said = run({**GOOD, "core.h": '#include "burr/volume/bone.h"\n'})
+        self.assertEqual(code, 0, said)
+        self.bad("core.h", '#include "burr/io/scan.h"\n', "includes burr/io/scan.h; it is a list of headers of base, math")
+        self.bad("other.h", "", "lies in no room")
+
     def test_a_circle_fails(self):
         code, said = run({**GOOD, "volume/a.h": '#include "burr/edit/b.h"\n', "edit/b.h": '#include "burr/volume/a.h"\n'})
         self.assertEqual(code, 1)

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "burr/scenario/case.h"
 #include "burr/school/session_record.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"

@@ -16,6 +16,8 @@
 #include "burr/sim/move_pieces.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
+#include "burr/tick/held_piece.h"
+#include "burr/tick/servo.h"
 
 namespace burr::sim::test {
 

@@ -16,6 +16,7 @@
 #include "burr/sim/replay.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/servo.h"
 #include "support/folder.h"
 
 namespace burr::sim {

@@ -20,6 +20,7 @@
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
+#include "burr/tick/servo.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
 #include "support/crossing.h"

@@ -14,6 +14,7 @@
 
 #include "burr/device/pushed_hand.h"
 #include "burr/device/simulated_hand.h"
+#include "burr/edit/bone_memory.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/record/player.h"

@@ -22,6 +22,8 @@
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/second_hand.h"
+#include "burr/tick/servo.h"
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/recording.h"
 #include "support/folder.h"

@@ -13,6 +13,7 @@
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
 #include "burr/tick/flag_words.h"
+#include "burr/tick/servo.h"
 #include "burr/volume/volume_of.h"
 
 namespace burr::tick {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "burr/haptics/contact.h"
+#include "burr/tick/servo.h"
 #include "tick/slab_bench.h"
 
 namespace burr::tick {

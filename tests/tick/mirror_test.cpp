@@ -20,6 +20,7 @@
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/servo.h"
 #include "burr/volume/volume_of.h"
 #include "support/folder.h"
 #include "support/rt_guard.h"

@@ -11,14 +11,17 @@
 #include <vector>
 
 #include "burr/device/simulated_hand.h"
+#include "burr/edit/bone_memory.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/record/player.h"
+#include "burr/record/recorder.h"
 #include "burr/rt/flags.h"
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/servo.h"
 #include "support/folder.h"
 #include "support/rt_guard.h"
 

@@ -18,6 +18,7 @@
 #include "burr/phantom/shapes.h"
 #include "burr/rt/flags.h"
 #include "burr/sim/session.h"
+#include "burr/tick/servo.h"
 #include "support/rt_guard.h"
 
 namespace burr::tick {

@@ -25,6 +25,8 @@
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/recorder_rings.h"
+#include "burr/tick/servo.h"
 #include "burr/volume/sample.h"
 #include "burr/volume/volume_of.h"
 #include "support/folder.h"

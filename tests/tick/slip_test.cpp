@@ -9,6 +9,7 @@
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/sim/session.h"
+#include "burr/tick/servo.h"
 
 namespace burr::tick {
 namespace {

@@ -13,6 +13,7 @@
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/sim/session.h"
+#include "burr/tick/servo.h"
 #include "burr/volume/sample.h"
 
 namespace burr::tick {

@@ -19,6 +19,8 @@
 #include "burr/sim/replay.h"
 #include "burr/sim/session.h"
 #include "burr/sim/session_words.h"
+#include "burr/tick/controls.h"
+#include "burr/tick/servo.h"
 #include "support/folder.h"
 #include "support/rt_guard.h"
 

@@ -2,6 +2,7 @@
 // reset.
 #include <gtest/gtest.h>
 
+#include "burr/tick/servo.h"
 #include "burr/volume/volume_of.h"
 #include "tick/slab_bench.h"
 

@@ -14,6 +14,7 @@
 
 #include <Eigen/Geometry>
 
+#include "burr/tick/second_hand.h"
 #include "burr/volume/pieces.h"
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/suction_hand.h"

@@ -10,6 +10,7 @@
 #include "burr/record/player.h"
 #include "burr/surface/enclosed.h"
 #include "burr/workshop/open_bone.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "io/dicom_writer.h"
 #include "window/import/series_page.h"

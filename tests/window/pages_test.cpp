@@ -9,6 +9,7 @@
 #include "burr/record/player.h"
 #include "burr/render/pick.h"
 #include "burr/rt/changed_bits.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "support/places.h"
 #include "window/mill/window.h"

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "burr/rt/flags.h"
+#include "burr/tick/held_piece.h"
 #include "burr/volume/pieces.h"
 #include "burr/volume/sample.h"
 #include "two_blocks.h"

@@ -16,6 +16,8 @@
 #include "burr/sim/move_pieces.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/plane_cut.h"
+#include "burr/tick/held_piece.h"
+#include "burr/tick/servo.h"
 #include "burr/volume/pieces.h"
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/label_check.h"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "burr/record/player.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "support/folder.h"
 

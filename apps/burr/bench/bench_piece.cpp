@@ -25,6 +25,7 @@
 #include "burr/scenario/case.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/surgeon/plane_cut.h"
+#include "burr/tick/held_piece.h"
 #include "burr/tick/servo.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"

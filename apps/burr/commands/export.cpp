@@ -16,6 +16,7 @@
 #include "burr/record/player.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/workshop/open_bone.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/export_dataset.h"
 #include "commands/export_dicom.h"

@@ -9,6 +9,7 @@
 
 #include "burr/dataset/dataset.h"
 #include "burr/record/player.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"

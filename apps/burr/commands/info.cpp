@@ -14,6 +14,7 @@
 #include "burr/sim/move_pieces.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/session_words.h"
 #include "shared/command.h"

@@ -16,6 +16,7 @@
 #include "burr/volume/copy_of_bone.h"
 #include "burr/volume/pieces.h"
 #include "burr/workshop/label_check.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "shared/command.h"
 #include "shared/json_line.h"

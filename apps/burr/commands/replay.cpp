@@ -24,6 +24,7 @@
 #include "burr/workshop/opening.h"
 #include "burr/workshop/out_piece.h"
 #include "burr/workshop/piece_look.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/seen.h"

@@ -8,6 +8,7 @@
 
 #include "burr/device/simulated_hand.h"
 #include "burr/surgeon/motion.h"
+#include "burr/tick/second_hand.h"
 
 namespace burr::app {
 namespace {

@@ -13,6 +13,7 @@
 #include "burr/base/result.h"
 #include "burr/render/scene.h"
 #include "burr/volume/bone.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 
 namespace burr::app {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "burr/haptics/safety/coupling.h"
+#include "burr/tick/controls.h"
 
 namespace burr::app {
 

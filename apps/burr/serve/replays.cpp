@@ -15,12 +15,14 @@
 #include <utility>
 
 #include "burr/record/bone_blob.h"
+#include "burr/record/timeline.h"
 #include "burr/report/evidence.h"
 #include "burr/report/scored.h"
 #include "burr/report/time_line.h"
 #include "burr/school/database.h"
 #include "burr/school/forget.h"
 #include "burr/school/uuid.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "shared/json_line.h"
 

@@ -8,6 +8,7 @@
 #include "burr/phantom/build.h"
 #include "burr/rt/flags.h"
 #include "burr/sim/session.h"
+#include "burr/tick/servo.h"
 #include "verify.h"
 
 namespace burr::app {

@@ -6,6 +6,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/sim/session.h"
+#include "burr/tick/servo.h"
 
 namespace burr::app {
 

@@ -1,16 +1,11 @@
 // edit/piece_move.h - a piece that has come free is put somewhere else, or lifted out of the bone into a
-// hand: the command's data, and the bricks that the servo then writes.
+// hand: the command's data. The bricks that the servo then writes: moved_bricks.h.
 //
-// Plain structs. Frame: world (LPS) for the move, p_grid for bricks. Units: SI.
+// A plain struct. Frame: world (LPS). Units: SI.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <vector>
-
-#include "burr/edit/undo.h"
-#include "burr/math/pose.h"
-#include "burr/tool/tool.h"
 
 namespace burr::edit {
 
@@ -28,23 +23,6 @@ struct PieceMove {
   bool specks = false;       // what lies loose in the piece's pores goes with it
 
   bool operator==(const PieceMove&) const = default;
-};
-
-// A piece in a hand. Frame of the tool: edit/piece_body.h.
-struct PieceBody {
-  tool::Tool tool;  // one part of the kind `grid`; none: the piece is not lifted
-  math::Pose at;    // world_from_tool, where the piece lay in the bone
-  std::uint64_t hash = 0;
-};
-
-// What the bricks hold after the move. A piece is prepared by another thread (piece_store.h).
-struct MovedBricks {
-  std::vector<KeptBrick> bricks;  // that differ, in the order of their numbers
-  std::uint64_t hash = 0;         // of them
-  std::uint64_t writes = 0;       // of the bone that they were made from
-  std::int64_t lost = 0;          // by the whole bone; below 0: gained  [units of volume_of.h]
-  std::int64_t overlap = 0;       // of piece and other bone, counted once [units]; part of lost
-  PieceBody body;                 // of a piece that is lifted
 };
 
 }  // namespace burr::edit

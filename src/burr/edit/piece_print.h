@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/edit/moved_bricks.h"
 #include "burr/edit/piece_move.h"
 #include "burr/edit/undo.h"
 #include "burr/math/vec3.h"

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/edit/moved_bricks.h"
 #include "burr/edit/piece_move.h"
 #include "burr/math/pose.h"
 #include "burr/volume/bone.h"

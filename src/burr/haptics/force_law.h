@@ -11,17 +11,13 @@
 
 #include <algorithm>
 
+#include "burr/haptics/force_settings.h"
 #include "burr/haptics/touch_method.h"
 #include "burr/math/sums.h"
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
 
 namespace burr::haptics {
-
-struct ForceSettings {
-  double stiffness = 1000;  // [N/m]
-  double damping = 0.5;     // [N s/m]
-};
 
 // touch: from the proxy's step; velocity: of the hand, filtered [m/s]. Returns the force on the
 // hand [N].

@@ -12,6 +12,7 @@
 
 #include "burr/record/assumed_tool.h"
 #include "burr/record/mcap/whole_chunks.h"
+#include "burr/scenario/case.h"
 
 namespace burr::record {
 namespace {

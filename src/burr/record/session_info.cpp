@@ -10,6 +10,7 @@
 #include "burr/record/grid_json.h"
 #include "burr/record/private_text.h"
 #include "burr/record/tool_json.h"
+#include "burr/scenario/case.h"
 #include "burr/volume/bone.h"
 
 namespace burr::record {

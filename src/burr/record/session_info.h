@@ -15,12 +15,15 @@
 
 #include "burr/base/result.h"
 #include "burr/record/identity.h"
-#include "burr/scenario/case.h"
 #include "burr/scenario/recipe.h"
+#include "burr/scenario/target.h"
 #include "burr/tool/shaped_tool.h"
 #include "burr/volume/grid.h"
 #include "burr/volume/tissue.h"
 
+namespace burr::scenario {
+struct Case;
+}
 namespace burr::volume {
 class Bone;
 }

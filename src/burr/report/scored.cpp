@@ -7,6 +7,7 @@
 #include "burr/base/printable.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/label_check.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 
 namespace burr::report {

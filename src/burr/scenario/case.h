@@ -17,23 +17,11 @@
 #include "burr/base/result.h"
 #include "burr/math/vec3.h"
 #include "burr/scenario/rack.h"
+#include "burr/scenario/target.h"
 #include "burr/tool/burr_tool.h"
 #include "burr/volume/tissue.h"
 
 namespace burr::scenario {
-
-// The task for a tissue.
-enum class Goal {
-  open,    // reach it: remove the bone in front of it
-  expose,  // uncover it without touching it
-  remove,  // remove it
-};
-
-struct Target {
-  std::string tissue;
-  Goal goal = Goal::open;
-  double share = 1;  // required share, 0..1
-};
 
 // How a session on the case is set, [session]: settings by their words and in the units of persons
 // (docs/use/settings.md), so that one file gives one hash wherever it is run. What is left out is as usual.

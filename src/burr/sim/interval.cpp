@@ -7,7 +7,9 @@
 #include <numbers>
 #include <thread>
 
+#include "burr/haptics/vibration.h"
 #include "burr/sim/session.h"
+#include "burr/tick/servo.h"
 #include "burr/tick/setting_table.h"
 
 namespace burr::sim {

@@ -5,6 +5,8 @@
 
 #include "burr/math/turn.h"
 #include "burr/rt/flags.h"
+#include "burr/tick/held_piece.h"
+#include "burr/tick/servo.h"
 #include "burr/volume/volume_of.h"
 
 namespace burr::sim {

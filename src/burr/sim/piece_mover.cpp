@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "burr/sim/move_pieces.h"
+#include "burr/tick/restore.h"
 #include "burr/volume/shared_copy.h"
 #include "burr/volume/volume_of.h"
 

@@ -9,6 +9,8 @@
 #include "burr/device/replayed_hand.h"
 #include "burr/rt/flags.h"
 #include "burr/sim/session_words.h"
+#include "burr/tick/second_hand.h"
+#include "burr/tick/servo.h"
 
 namespace burr::sim {
 namespace {

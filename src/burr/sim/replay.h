@@ -16,6 +16,7 @@
 #include "burr/record/player.h"
 #include "burr/sim/row_log.h"
 #include "burr/sim/session.h"
+#include "burr/tick/own_law.h"
 
 namespace burr::sim {
 

@@ -8,7 +8,20 @@
 #include <thread>
 
 #include "burr/base/check.h"
+#include "burr/device/device.h"
+#include "burr/edit/bone_memory.h"
+#include "burr/haptics/safety/coupling.h"
+#include "burr/haptics/safety/watchdog.h"
+#include "burr/record/recorder.h"
 #include "burr/rt/clock.h"
+#include "burr/sim/row_log.h"
+#include "burr/thermal/worker.h"
+#include "burr/tick/controls.h"
+#include "burr/tick/fault_report.h"
+#include "burr/tick/own_law.h"
+#include "burr/tick/recorder_rings.h"
+#include "burr/tick/second_hand.h"
+#include "burr/tick/servo.h"
 #include "burr/tick/setting_table.h"
 #include "burr/tool/limits.h"
 
@@ -55,7 +68,10 @@ Status check_tools(const tick::ServoSettings& servo, double voxel) {
 
 Session::Session(std::unique_ptr<volume::Bone> bone, std::unique_ptr<device::Device> device,
                  const SessionSettings& settings)
-    : bone_(std::move(bone)), device_(std::move(device)), settings_(settings) {}
+    : bone_(std::move(bone)),
+      device_(std::move(device)),
+      settings_(settings),
+      memory_(std::make_unique<edit::BoneMemory>()) {}
 
 Session::~Session() {
   stop();
@@ -135,6 +151,18 @@ Status Session::add_second_hand(std::unique_ptr<device::Device> device,
   servo_->set_second(second_.get());
   return fine();
 }
+
+void Session::command(const tick::Command& command) {
+  static_cast<void>(servo_->commands().push(command));
+}
+
+tick::MoveState Session::move_state() const { return servo_->move_state(); }
+std::uint64_t Session::writes() const { return servo_->writes_done(); }
+std::uint64_t Session::writes_begun() const { return servo_->writes_begun(); }
+bool Session::view(tick::TickRow& newest) { return servo_->view().take(newest); }
+bool Session::fault(tick::FaultReport& report) { return servo_->faults().take(report); }
+bool Session::heat(thermal::HeatSummary& newest) { return heat_ && heat_->take(newest); }
+double Session::burr_radius() const { return servo_->burr_radius(); }
 
 bool Session::move_piece(const edit::PieceMove& move,
                          std::shared_ptr<const edit::MovedBricks> bricks) {
@@ -295,8 +323,8 @@ void Session::keep_in_memory(bool rows, bool voxels) {
 
 edit::BoneState Session::bone_state() {
   BURR_CHECK(!running());
-  memory_.note(servo_->undo_store());
-  return memory_.now(*bone_);
+  memory_->note(servo_->undo_store());
+  return memory_->now(*bone_);
 }
 
 Status Session::reset_to(const edit::BoneState& state) {
@@ -311,15 +339,14 @@ Status Session::reset_to(const edit::BoneState& state) {
                  fmt::format("this session {}, so it cannot start over; make another one", why));
   if (settings_.law)
     if (Status begun = settings_.law->begin(); !begun) return begun;
-  memory_.note(servo_->undo_store());
-  memory_.put_back(state, servo_->writer());
+  memory_->note(servo_->undo_store());
+  memory_->put_back(state, servo_->writer());
   surface_->refresh_all();
   device_->close();
   if (Status opened = device_->open(); !opened) return opened;
-  tick::Servo::Known known = servo_->take_known();
+  const auto found = servo_->take_found();
   servo_.reset();  // before the next one takes its memory
-  servo_ =
-      std::make_unique<tick::Servo>(*bone_, *surface_, *device_, settings_.servo, std::move(known));
+  servo_ = std::make_unique<tick::Servo>(*bone_, *surface_, *device_, settings_.servo, found);
   servo_->set_watch(watch_);
   moving_ = nullptr;
   if (log_) {

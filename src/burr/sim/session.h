@@ -23,22 +23,48 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
-#include "burr/edit/bone_memory.h"
 #include "burr/edit/piece_move.h"
-#include "burr/haptics/safety/watchdog.h"
-#include "burr/record/recorder.h"
+#include "burr/math/aabb.h"
+#include "burr/rt/latest.h"
 #include "burr/rt/stats.h"
 #include "burr/rt/thread.h"
-#include "burr/sim/row_log.h"
 #include "burr/thermal/settings.h"
 #include "burr/thermal/summary.h"
-#include "burr/thermal/worker.h"
-#include "burr/tick/own_law.h"
-#include "burr/tick/second_hand.h"
-#include "burr/tick/servo.h"
+#include "burr/tick/command.h"
+#include "burr/tick/rows.h"
+#include "burr/tick/settings.h"
 #include "burr/tick/shed.h"
+#include "burr/volume/bone.h"
+#include "burr/volume/iso_vertices.h"
+
+namespace burr::device {
+class Device;
+}
+namespace burr::edit {
+class BoneMemory;
+struct BoneState;
+struct MovedBricks;
+}  // namespace burr::edit
+namespace burr::record {
+class Recorder;
+}
+namespace burr::haptics {
+class Watchdog;
+}
+namespace burr::thermal {
+class Worker;
+}
+namespace burr::tick {
+struct FaultReport;
+class OwnLaw;
+class SecondHand;
+struct SecondHandSettings;
+class Servo;
+}  // namespace burr::tick
 
 namespace burr::sim {
+
+class RowLog;
 
 // A request for the temperature of the bone. It is computed beside the session; no force depends on
 // it.
@@ -147,9 +173,7 @@ class Session {
   [[nodiscard]] bool running() const { return running_.load(std::memory_order_acquire); }
 
   // ---- doors
-  void command(const tick::Command& command) {
-    static_cast<void>(servo_->commands().push(command));
-  }
+  void command(const tick::Command& command);
   // Sends the command `move_piece` with its bricks, which it keeps alive. False: another piece is
   // being moved, or too many commands wait. move_state() says what became of it.
   [[nodiscard]] bool move_piece(const edit::PieceMove& move,
@@ -160,19 +184,19 @@ class Session {
   // The same with `take_splinter`. second: the tube of the second hand takes it.
   [[nodiscard]] bool take_splinter(const edit::PieceMove& move, bool second,
                                    std::shared_ptr<const edit::MovedBricks> bricks);
-  [[nodiscard]] tick::MoveState move_state() const { return servo_->move_state(); }
+  [[nodiscard]] tick::MoveState move_state() const;
   // How often the bone was written (edit/bone_writer.h); any thread.
-  [[nodiscard]] std::uint64_t writes() const { return servo_->writes_done(); }
-  [[nodiscard]] std::uint64_t writes_begun() const { return servo_->writes_begun(); }
-  [[nodiscard]] bool view(tick::TickRow& newest) { return servo_->view().take(newest); }
-  [[nodiscard]] bool fault(tick::FaultReport& report) { return servo_->faults().take(report); }
+  [[nodiscard]] std::uint64_t writes() const;
+  [[nodiscard]] std::uint64_t writes_begun() const;
+  [[nodiscard]] bool view(tick::TickRow& newest);
+  [[nodiscard]] bool fault(tick::FaultReport& report);
   // The temperature, ten times a second of the session's time; false: nothing new, or not
   // requested.
-  [[nodiscard]] bool heat(thermal::HeatSummary& newest) { return heat_ && heat_->take(newest); }
+  [[nodiscard]] bool heat(thermal::HeatSummary& newest);
   // ticks so far; any thread
   [[nodiscard]] std::uint64_t ticks() const { return done_.load(std::memory_order_relaxed); }
   // present radius of the burr's head [m]; any thread
-  [[nodiscard]] double burr_radius() const { return servo_->burr_radius(); }
+  [[nodiscard]] double burr_radius() const;
   // What this machine is too slow for at present: from Shed::picture and Shed::mesh on, the caller
   // must make pictures and surface less often. Any thread.
   [[nodiscard]] tick::Shed shed() const { return shed_.load(std::memory_order_relaxed); }
@@ -215,7 +239,7 @@ class Session {
   record::Recorder* recorder_ = nullptr;
   rt::Latest<tick::TickRow>* watch_ = nullptr;
   std::unique_ptr<RowLog> log_;
-  edit::BoneMemory memory_;  // of what earlier servos changed, reset_to()
+  std::unique_ptr<edit::BoneMemory> memory_;  // of what earlier servos changed, reset_to()
   std::function<void()> between_;
   std::uint64_t between_every_ = 1;
 

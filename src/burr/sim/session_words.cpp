@@ -6,6 +6,7 @@
 #include <string>
 
 #include "burr/base/printable.h"
+#include "burr/tick/own_law.h"
 #include "burr/tick/second_hand.h"
 #include "burr/tick/setting_table.h"
 

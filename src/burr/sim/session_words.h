@@ -5,8 +5,14 @@
 #pragma once
 
 #include "burr/base/result.h"
+#include "burr/device/hand.h"
 #include "burr/record/session_info.h"
 #include "burr/sim/session.h"
+#include "burr/tick/second_hand_settings.h"
+
+namespace burr::tick {
+struct LawAbout;
+}
 
 namespace burr::sim {
 

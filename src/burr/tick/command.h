@@ -46,4 +46,7 @@ struct Command {
   edit::PieceMove move = {};  // of commands for pieces
 };
 
+// What became of the command `move_piece`, `lift_piece` or `take_splinter` (restore.h).
+enum class MoveState : std::uint8_t { none, waiting, moving, done, refused };
+
 }  // namespace burr::tick

@@ -20,6 +20,7 @@
 #include "burr/haptics/vibration.h"
 #include "burr/rt/rt.h"
 #include "burr/thermal/rows.h"
+#include "burr/tick/controls.h"
 #include "burr/tick/hand.h"
 #include "burr/tick/rows.h"
 #include "burr/tick/settings.h"

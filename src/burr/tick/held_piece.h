@@ -26,7 +26,7 @@
 #include <array>
 
 #include "burr/device/hand.h"
-#include "burr/edit/piece_move.h"
+#include "burr/edit/moved_bricks.h"
 #include "burr/haptics/six/tool_touch.h"
 #include "burr/haptics/six/two_tools.h"
 #include "burr/haptics/touch_method.h"

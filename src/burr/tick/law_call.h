@@ -5,6 +5,7 @@
 
 #include "burr/math/vec3.h"
 #include "burr/rt/rt.h"
+#include "burr/tick/controls.h"
 #include "burr/tick/hand.h"
 #include "burr/tick/own_law.h"
 #include "burr/tick/rows.h"

@@ -11,6 +11,7 @@
 #include "burr/rt/ring.h"
 #include "burr/rt/rt.h"
 #include "burr/tick/command.h"
+#include "burr/tick/controls.h"
 #include "burr/tick/cutting.h"
 #include "burr/tick/hand.h"
 #include "burr/tick/held_piece.h"

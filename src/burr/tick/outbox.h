@@ -18,20 +18,14 @@
 #include "burr/rt/ring.h"
 #include "burr/rt/rt.h"
 #include "burr/thermal/worker.h"
+#include "burr/tick/controls.h"
 #include "burr/tick/cutting.h"
+#include "burr/tick/recorder_rings.h"
 #include "burr/tick/rows.h"
 #include "burr/tick/settings.h"
 #include "burr/volume/bone.h"
 
 namespace burr::tick {
-
-// The recorder's rings (record/recorder.h); nullptr: there is no recorder.
-struct RecorderRings {
-  rt::Ring<TickRow>* ticks = nullptr;
-  rt::Ring<CommandRow>* commands = nullptr;
-  rt::Ring<BrickRow>* bricks = nullptr;
-  rt::Ring<TickRow>* second = nullptr;  // of the second hand; nullptr: there is none
-};
 
 class Outbox {
  public:

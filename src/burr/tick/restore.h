@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "burr/edit/bone_writer.h"
+#include "burr/edit/moved_bricks.h"
 #include "burr/edit/piece_move.h"
 #include "burr/edit/undo.h"
 #include "burr/math/vec3.h"
@@ -27,8 +28,6 @@
 #include "burr/volume/iso_vertices.h"
 
 namespace burr::tick {
-
-enum class MoveState : std::uint8_t { none, waiting, moving, done, refused };
 
 class Restore {
  public:

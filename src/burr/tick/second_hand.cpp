@@ -85,7 +85,7 @@ std::unique_ptr<haptics::ToolTouch> touch_of(const volume::IsoVertices& surface,
 
 }  // namespace
 
-SecondHand::SecondHand(const Shared& shared, device::Device& device,
+SecondHand::SecondHand(const SharedByHands& shared, device::Device& device,
                        const SecondHandSettings& settings)
     : settings_(capped(settings, device.spec(), shared.surface.bone().grid().voxel)),
       session_(shared.controls),

@@ -34,40 +34,34 @@
 #include "burr/haptics/six/two_tools.h"
 #include "burr/rt/latest.h"
 #include "burr/rt/rt.h"
+#include "burr/tick/controls.h"
 #include "burr/tick/cutting.h"
 #include "burr/tick/fault_report.h"
 #include "burr/tick/hand.h"
 #include "burr/tick/held_piece.h"
 #include "burr/tick/rows.h"
+#include "burr/tick/second_hand_settings.h"
 #include "burr/tick/settings.h"
 #include "burr/tool/shaped_tool.h"
 #include "burr/volume/iso_vertices.h"
 
 namespace burr::tick {
 
-struct SecondHandSettings {
-  double radius = 1.5e-3;        // of the ball at its tip, at least two voxels            [m]
-  haptics::ForceSettings force;  // capped by the device's own
-  double friction = 0.1;         // of metal on wet bone: hardly any; of a ball             [-]
-  double slip_m_s = 30e-3;       // as ServoSettings::slip_m_s                           [m/s]
-  double velocity_filter_hz = 100;
-  haptics::LimitSettings limit;
-  std::optional<tool::ShapedTool> tool = {};  // none: a ball that never cuts
+// What the second hand shares with the first hand.
+struct SharedByHands {
+  const volume::IsoVertices& surface;
+  edit::UndoStore& undo;
+  edit::BoneWriter& writer;
+  const Controls& controls;  // of the session; laws, mirror and load hold for both hands
+  const Cutting& beside;     // of the first hand
+  HeldPiece& piece;
 };
 
 class SecondHand {
  public:
-  // What it shares with the first hand.
-  struct Shared {
-    const volume::IsoVertices& surface;
-    edit::UndoStore& undo;
-    edit::BoneWriter& writer;
-    const Controls& controls;  // of the session; laws, mirror and load hold for both hands
-    const Cutting& beside;     // of the first hand
-    HeldPiece& piece;
-  };
   // device: open
-  SecondHand(const Shared& shared, device::Device& device, const SecondHandSettings& settings);
+  SecondHand(const SharedByHands& shared, device::Device& device,
+             const SecondHandSettings& settings);
 
   // ---- the steps of a tick
   // lost: as Servo::tick(). parted: bone may come back where it is (an undo): the force is released

@@ -1,24 +1,20 @@
-// tick/settings.h - how a session is set: as it began, and as commands have changed it since.
+// tick/settings.h - how a session is set. As commands have changed it since: controls.h.
 //
-// Plain structs. Units: SI.
+// A plain struct. Units: SI.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "burr/edit/carve.h"
+#include "burr/edit/carve_settings.h"
 #include "burr/edit/laws/removal.h"
-#include "burr/edit/mirror.h"
-#include "burr/haptics/force_law.h"
-#include "burr/haptics/safety/coupling.h"
-#include "burr/haptics/safety/limit.h"
-#include "burr/haptics/touch_method.h"
-#include "burr/tick/shed.h"
+#include "burr/haptics/force_settings.h"
+#include "burr/haptics/method.h"
 #include "burr/tool/burr_tool.h"
 #include "burr/tool/shaped_tool.h"
 #include "burr/tool/spindle.h"
 #include "burr/tool/state.h"
-#include "burr/volume/bone.h"
+#include "burr/volume/tissue.h"
 
 namespace burr::tick {
 
@@ -69,20 +65,6 @@ struct ServoSettings {
   OwnLaw* law =
       nullptr;  // of one's own, in place of the force law (own_law.h); it outlives the servo
   std::size_t undo_bricks = 16384;  // that all remembered strokes may touch together
-};
-
-// The springs of a contact on this device, at the stiffness that is set.
-[[nodiscard]] inline haptics::Coupling coupling_of(const device::DeviceSpec& device,
-                                                   const ServoSettings& settings) BURR_RT {
-  return haptics::coupling_of(device, settings.force.stiffness, settings.rate_hz);
-}
-
-// What holds in this tick. The orders (orders.h) write it; the other parts of the servo read it.
-struct Controls {
-  ServoSettings settings;
-  Shed shed = Shed::none;
-  bool irrigated = false;    // coolant runs: for the worker that computes the heat
-  edit::Mirror mirror = {};  // everything is done to the bone on its other side too
 };
 
 }  // namespace burr::tick

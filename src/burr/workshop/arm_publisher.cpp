@@ -1,4 +1,5 @@
 #include "burr/workshop/arm_publisher.h"
+#include "burr/tick/servo.h"
 
 #include <chrono>
 #include <utility>

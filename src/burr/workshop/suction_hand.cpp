@@ -1,4 +1,5 @@
 #include "burr/workshop/suction_hand.h"
+#include "burr/tick/second_hand.h"
 
 #include <algorithm>
 #include <utility>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "burr/device/openhaptics/touch.h"
+#include "burr/haptics/touch_method.h"
 #include "device/fake/fake_hd.h"
 #include "device/players/player.h"
 #include "support/places.h"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "burr/render/pick.h"
+#include "burr/tick/second_hand.h"
 #include "burr/workshop/work_view.h"
 #include "shared/make_ready.h"
 #include "shared/words.h"

@@ -11,6 +11,7 @@
 #include "burr/haptics/contact.h"
 #include "burr/render/scene.h"
 #include "burr/rt/flags.h"
+#include "burr/tick/second_hand.h"
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/fault_file.h"
 #include "burr/workshop/work_view.h"

@@ -19,6 +19,7 @@
 #include "burr/report/questions.h"
 #include "burr/scenario/rack.h"
 #include "burr/workshop/prepare.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "shared/work.h"
 

@@ -6,6 +6,7 @@
 #include "burr/report/piece_words.h"
 #include "burr/report/scored.h"
 #include "burr/volume/copy_of_bone.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 
 namespace burr::app {

@@ -22,6 +22,7 @@
 #include "burr/base/result.h"
 #include "burr/scenario/recipe.h"
 #include "burr/volume/bone.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 
 namespace burr::app {

@@ -12,6 +12,7 @@
 #include "burr/render/soft_scene.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/piece_look.h"
+#include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "shared/words.h"
 #include "window/parts/sessions.h"

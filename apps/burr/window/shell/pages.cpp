@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "burr/render/picture.h"
+#include "burr/tick/second_hand.h"
 #include "shared/interrupt.h"
 #include "shared/words.h"
 #include "shared/work.h"

@@ -1,4 +1,4 @@
-#include "burr/tick/servo.h"
+#include "burr/tick/servo_parts.h"
 
 #include <utility>
 
@@ -37,16 +37,16 @@ constexpr int kOrientation = 6;  // degrees of freedom of a device that tells ho
 
 }  // namespace
 
-Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
-             const ServoSettings& settings, Known known)
+ServoParts::ServoParts(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
+                       const ServoSettings& settings, FoundInBone found)
     : surface_(surface),
       dt_(1.0 / settings.rate_hz),
       controls_{.settings = settings, .irrigated = settings.irrigated},
       changed_(bone),
       undo_(bone, settings.undo_bricks),
-      writer_(bone, surface, undo_, &changed_, std::move(known.bricks)),
+      writer_(bone, surface, undo_, &changed_, std::move(found.bricks)),
       touch_by_(surface, proxy_settings(settings), settings.touch, &controls_.settings.tools,
-                settings.tool, std::move(known.mesher)),
+                settings.tool, std::move(found.mesher)),
       hand_(device, touch_by_.constraint(), controls_.settings.force, hand_settings(settings)),
       law_(bone, controls_, hand_),
       cutting_(bone, undo_, writer_, controls_, hand_),
@@ -63,12 +63,12 @@ Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& d
   piece_.couple(HeldPiece::kFirst, lever);
 }
 
-void Servo::set_second(SecondHand* second) {
+void ServoParts::set_second(SecondHand* second) {
   second_ = second;
   cutting_.set_beside(second != nullptr ? second->cutting() : nullptr);
 }
 
-const TickRow& Servo::tick(bool lost) BURR_RT {
+const TickRow& ServoParts::tick(bool lost) BURR_RT {
   row_ = {};
   row_.tick = next_tick_++;
   std::uint32_t& flags = row_.contact.flags;
@@ -121,7 +121,7 @@ const TickRow& Servo::tick(bool lost) BURR_RT {
   return row_;
 }
 
-void Servo::cut(const Vec3& touched) BURR_RT {
+void ServoParts::cut(const Vec3& touched) BURR_RT {
   const bool may = !restore_.active() && !restore_.lifted();
   cutting_.cut(row_.tick, touched, may, restore_.path_mark(), row_.contact.flags);
   if (second_ != nullptr) second_->cut(may, restore_.path_mark());
@@ -132,7 +132,7 @@ void Servo::cut(const Vec3& touched) BURR_RT {
                    slices_of(controls_.shed));
 }
 
-void Servo::publish() BURR_RT {
+void ServoParts::publish() BURR_RT {
   if (second_ != nullptr) {
     second_->publish();
     outbox_.publish_second(second_->row());
@@ -142,7 +142,7 @@ void Servo::publish() BURR_RT {
 
 // A piece that was lifted is in the hand in place of its tool, unless the other hand holds it: then the
 // tool is in the hand again, and begins in free air.
-void Servo::choose_touch() BURR_RT {
+void ServoParts::choose_touch() BURR_RT {
   const bool beside = piece_.lifted() && piece_.holder() == HeldPiece::kSecond;
   if (beside != beside_piece_) hand_.lift();
   beside_piece_ = beside;
@@ -153,7 +153,7 @@ void Servo::choose_touch() BURR_RT {
 }
 
 // will_feel() with a piece.
-bool Servo::will_carry(bool usable) BURR_RT {
+bool ServoParts::will_carry(bool usable) BURR_RT {
   if (!piece_.grips(HeldPiece::kFirst, hand_.state(), usable)) {
     if (!beside_piece_) hand_.hold_nothing();
     return false;
@@ -168,7 +168,7 @@ bool Servo::will_carry(bool usable) BURR_RT {
 }
 
 // The steps before touch; false: the hand feels nothing, or what restore.h gives it.
-bool Servo::will_feel(bool usable) BURR_RT {
+bool ServoParts::will_feel(bool usable) BURR_RT {
   if (!usable) {
     if (piece_.lifted()) static_cast<void>(will_carry(false));
     // a piece does not wait for a hand: the hand is released in any case
@@ -196,7 +196,7 @@ bool Servo::will_feel(bool usable) BURR_RT {
 }
 
 // What is in the hand after this tick's commands, obeyed or refused.
-void Servo::note_tool() BURR_RT {
+void ServoParts::note_tool() BURR_RT {
   const ServoSettings& now = controls_.settings;
   row_.tool.radius = now.burr.radius;
   row_.tool.full_speed = cutting_.spindle().full_speed;
@@ -208,7 +208,7 @@ void Servo::note_tool() BURR_RT {
   row_.tool.number = now.tool;
 }
 
-void Servo::finish_row(const Hand::Sent& sent) BURR_RT {
+void ServoParts::finish_row(const Hand::Sent& sent) BURR_RT {
   hand_.report(sent, row_.contact);
   std::uint32_t& flags = row_.contact.flags;
   if (surface_.exhausted()) flags |= rt::kFlagReserve;
@@ -224,10 +224,55 @@ void Servo::finish_row(const Hand::Sent& sent) BURR_RT {
   row_.hash = last_hash_ = tick_hash(row_, last_hash_);
 }
 
-void Servo::note_timing(double took_us, double late_us) BURR_RT {
+void ServoParts::note_timing(double took_us, double late_us) BURR_RT {
   row_.took_us = static_cast<float>(took_us);
   row_.late_us = static_cast<float>(late_us);
   hand_.faults().renew(row_);
 }
+
+// ---- servo.h: each call goes to the parts
+
+Servo::Servo(volume::Bone& bone, volume::IsoVertices& surface, device::Device& device,
+             const ServoSettings& settings, const std::shared_ptr<FoundInBone>& found)
+    : parts_(std::make_unique<ServoParts>(bone, surface, device, settings,
+                                          found ? std::move(*found) : FoundInBone{})) {}
+
+Servo::~Servo() = default;
+
+const TickRow& Servo::tick(bool lost) BURR_RT { return parts_->tick(lost); }
+void Servo::set_shed(Shed shed) BURR_RT { parts_->set_shed(shed); }
+Shed Servo::shed() const BURR_RT { return parts_->shed(); }
+rt::Ring<Command>& Servo::commands() BURR_RT { return parts_->commands(); }
+rt::Latest<TickRow>& Servo::view() BURR_RT { return parts_->view(); }
+rt::Latest<FaultReport>& Servo::faults() BURR_RT { return parts_->faults(); }
+double Servo::burr_radius() const BURR_RT { return parts_->burr_radius(); }
+bool Servo::released() const BURR_RT { return parts_->released(); }
+void Servo::set_recorder_rings(const RecorderRings& rings) { parts_->set_recorder_rings(rings); }
+void Servo::set_second(SecondHand* second) { parts_->set_second(second); }
+SharedByHands Servo::shared() { return parts_->shared(); }
+void Servo::set_watch(rt::Latest<TickRow>* watch) { parts_->set_watch(watch); }
+void Servo::set_heat(thermal::Worker* heat) { parts_->set_heat(heat); }
+void Servo::set_brick_watch(edit::ChangedQueue* watch) { parts_->set_brick_watch(watch); }
+edit::BoneWriter& Servo::writer() { return parts_->writer(); }
+std::shared_ptr<FoundInBone> Servo::take_found() {
+  return std::make_shared<FoundInBone>(parts_->take_found());
+}
+void Servo::note_timing(double took_us, double late_us) BURR_RT {
+  parts_->note_timing(took_us, late_us);
+}
+void Servo::publish() BURR_RT { parts_->publish(); }
+Servo::Work Servo::work() const BURR_RT { return parts_->work(); }
+const ServoSettings& Servo::settings() const BURR_RT { return parts_->settings(); }
+const edit::UndoStore& Servo::undo_store() const BURR_RT { return parts_->undo_store(); }
+std::size_t Servo::bricks_to_write() const BURR_RT { return parts_->bricks_to_write(); }
+bool Servo::restoring() const BURR_RT { return parts_->restoring(); }
+const HeldPiece& Servo::piece() const { return parts_->piece(); }
+bool Servo::lay_ready(const edit::MovedBricks& bricks) { return parts_->lay_ready(bricks); }
+void Servo::take_back() { parts_->take_back(); }
+MoveState Servo::move_state() const { return parts_->move_state(); }
+std::uint64_t Servo::writes_begun() const { return parts_->writes_begun(); }
+std::uint64_t Servo::writes_done() const { return parts_->writes_done(); }
+void Servo::flush_bricks() BURR_RT { parts_->flush_bricks(); }
+void Servo::commit_ahead() { parts_->commit_ahead(); }
 
 }  // namespace burr::tick
