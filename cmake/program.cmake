@@ -32,7 +32,7 @@ if(BURR_APP)
   endfunction()
 
   # the parts that tests use as well, compiled once: the floors below the subcommands, the window, and of the trials what is named
-  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/session_words school/products serve/stations
+  set(BURR_APP_PARTS commands/case_new commands/export_pieces commands/session_lines school/products serve/stations
     devices/trial devices/trial_words doctor/run_in_process doctor/devices_there doctor/finding doctor/fix doctor/nodes)
   list(TRANSFORM BURR_APP_PARTS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/apps/burr/\\1.cpp")
   foreach(floor shared window)

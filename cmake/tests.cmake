@@ -7,7 +7,7 @@ list(FILTER BURR_TEST_SUPPORT EXCLUDE REGEX "_windows\\.cpp$")
 add_library(burr_test_support STATIC ${BURR_TEST_SUPPORT})
 set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/rt_guard.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # it defines malloc
 # it alone knows where this checkout lies, so a compiler's cache finds all other sources again in another folder
-set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/places.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/support/test_places.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
   COMPILE_DEFINITIONS "BURR_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";BURR_BUILD_DIR=\"${CMAKE_BINARY_DIR}\"")
 target_include_directories(burr_test_support PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(burr_test_support PUBLIC burr burr_scenes GTest::gtest fmt::fmt ${CMAKE_DL_LIBS} PRIVATE burr_options)
@@ -136,7 +136,7 @@ foreach(room render window)
     add_dependencies(test_${room} fake_openxr)
   endif()
 endforeach()
-# laws of one's own, compiled as a user would: the sample, and those that misbehave. C, but by the compiler that is there
+# custom laws, compiled as a user would: the sample, and those that misbehave. C, but by the compiler that is there
 function(burr_law name source)
   add_library(law_${name} MODULE ${PROJECT_SOURCE_DIR}/${source})
   set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} PROPERTIES LANGUAGE CXX)

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "burr/record/mcap/bytes.h"
+#include "burr/record/mcap/mcap_bytes.h"
 #include "support.h"
 
 namespace {

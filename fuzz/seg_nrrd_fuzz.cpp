@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto scan = fuzz::read_scan_bytes(io::read_nrrd, "a.seg.nrrd", {data, size});
   // the import has its own limits; here it must only be small enough to run often
   if (!scan || scan->labels.empty() || scan->size.maxCoeff() > 48) return 0;
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.reserve_bricks = 0;
   options.memory_mb = 16;
   NoProgress progress;

@@ -50,7 +50,7 @@ X
 su user -s /bin/bash /tmp/use.sh
 
 if dpkg-query -W libburr-dev >/dev/null 2>&1 && command -v cmake >/dev/null && command -v g++ >/dev/null; then
-  say "a program of one's own"
+  say "a program of your own"
   su user -s /bin/bash -c 'cp -r /newcomer/burr/samples ~/samples && cmake -S ~/samples/installed -B ~/build && cmake --build ~/build'
 fi
 

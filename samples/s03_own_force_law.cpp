@@ -1,4 +1,4 @@
-// s03_own_force_law - a force law of one's own: a spring that grows stiffer with depth.
+// s03_own_force_law - a force custom law: a spring that grows stiffer with depth.
 //
 // Touch says where the burr rests on the bone and how far the hand is from there; the law turns
 // that into a force. A simulated hand is pulled 2 mm below the surface by its own spring and comes

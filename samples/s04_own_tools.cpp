@@ -1,4 +1,4 @@
-// s04_own_tools - a rack of one's own burrs, carried as data, tried on the same bone.
+// s04_own_tools - a rack of custom burrs, carried as data, tried on the same bone.
 //
 // A tool is a burr (radius, kind), the speed of its spindle and its motor. Each tool of the rack is
 // pressed into the same slab in the same way. Prints what each removes and how far its spindle

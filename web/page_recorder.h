@@ -7,14 +7,14 @@
 #include <string>
 
 #include "burr/base/result.h"
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/record/course.h"
 #include "burr/record/identity.h"
 #include "burr/record/pen.h"
 #include "burr/record/session_info.h"
 #include "burr/rt/ring.h"
 #include "burr/scenario/case.h"
-#include "burr/tick/outbox.h"
+#include "burr/tick/servo_outbox.h"
 #include "burr/tick/settings.h"
 #include "burr/volume/bone.h"
 

@@ -73,7 +73,7 @@ View& view() {
   return one;
 }
 
-// As the window begins (apps/burr/shared/make_ready.cpp).
+// As the window begins (apps/burr/shared/window_session.cpp).
 render::Camera first_camera() {
   const double height = std::clamp(20 * web::kBurrRadius, 20e-3, 70e-3);
   return render::view_of_work(web::work_at(), -web::work_into(), 2 * height);

@@ -21,10 +21,10 @@
 #include "burr/base/version.h"
 #include "commands/complete.h"
 #include "commands/examples.h"
-#include "commands/limits.h"
-#include "shared/command.h"
+#include "commands/shell_limits.h"
 #include "shared/console.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

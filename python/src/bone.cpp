@@ -152,7 +152,7 @@ BonePtr from_array(const py::array& field, double voxel_mm, const py::object& la
   return box(std::move(bone));
 }
 
-BonePtr imported(importing::Imported made, scenario::Recipe recipe) {
+BonePtr imported(importing::Imported made, scenario::BoneRecipe recipe) {
   auto out = box(std::move(made.bone));
   out->recipe = std::move(recipe);
   out->format = made.summary.format;
@@ -181,9 +181,9 @@ ScanGrid scan_like(const py::array& array, const py::object& spacing_mm,
 }
 
 // What the functions that make a bone have in common.
-scenario::Recipe recipe_from(double voxel_mm, const std::string& labels,
-                             const std::string& materials, std::size_t reserve_bricks) {
-  scenario::Recipe recipe;
+scenario::BoneRecipe recipe_from(double voxel_mm, const std::string& labels,
+                                 const std::string& materials, std::size_t reserve_bricks) {
+  scenario::BoneRecipe recipe;
   recipe.voxel_mm = voxel_mm;
   recipe.labels = labels;
   recipe.materials = materials;
@@ -191,7 +191,8 @@ scenario::Recipe recipe_from(double voxel_mm, const std::string& labels,
   return recipe;
 }
 
-BonePtr import_scan(const io::Scan& scan, const scenario::Recipe& recipe, const py::object& call) {
+BonePtr import_scan(const io::Scan& scan, const scenario::BoneRecipe& recipe,
+                    const py::object& call) {
   Work work(call);
   auto made = work.run([&] { return importing::import_bone(scan, recipe, work); });
   auto out = imported(take(std::move(made)), {});
@@ -221,7 +222,7 @@ BonePtr from_hu(const py::array& hu, const py::object& spacing_mm, const py::obj
   ScanGrid made = scan_like(values, spacing_mm, origin_mm);
   made.scan.values.assign(values.data(), values.data() + made.voxels);
   made.scan.hounsfield = true;
-  scenario::Recipe recipe = recipe_from(voxel_mm, "", materials, reserve_bricks);
+  scenario::BoneRecipe recipe = recipe_from(voxel_mm, "", materials, reserve_bricks);
   if (!iso.is_none()) recipe.iso = iso.cast<double>();
   return import_scan(made.scan, recipe, call);
 }
@@ -230,7 +231,7 @@ BonePtr load(const std::string& source, double voxel_mm, const py::object& iso,
              const std::string& region, const std::string& series, const std::string& labels,
              const std::string& materials, bool allow_missing, bool as_it_is,
              std::size_t reserve_bricks, const py::object& call) {
-  scenario::Recipe recipe = recipe_from(voxel_mm, labels, materials, reserve_bricks);
+  scenario::BoneRecipe recipe = recipe_from(voxel_mm, labels, materials, reserve_bricks);
   recipe.source = source;
   recipe.series = series;
   recipe.allow_missing = allow_missing;

@@ -108,7 +108,7 @@ py::array view(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ss
 // A bone that nobody changes any more: a session works on a copy.
 struct BoneBox {
   std::shared_ptr<const volume::Bone> bone;
-  scenario::Recipe recipe;  // how it was made; no source: from arrays, or of a session
+  scenario::BoneRecipe recipe;  // how it was made; no source: from arrays, or of a session
   std::string format;
   std::vector<std::string> notices;
 };

@@ -101,7 +101,7 @@ struct Events::Helper {
   std::unique_ptr<volume::Bone> now;
   std::uint64_t now_tick = 0;
   BonePtr before;
-  const scenario::Lesson* lesson = nullptr;
+  const scenario::CaseLesson* lesson = nullptr;
   std::vector<std::pair<std::size_t, const scenario::Step*>> steps;  // not reached yet
 
   void run();

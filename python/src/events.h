@@ -97,7 +97,7 @@ class Events {
   };
   BonePtr bone_;
   std::optional<scenario::Case> work_;
-  std::optional<scenario::Lesson> lesson_;
+  std::optional<scenario::CaseLesson> lesson_;
   std::vector<Wanted> wanted_;                       // without the functions, which the helper has
   std::vector<std::size_t> touch_, leave_, steps_;   // numbers of wishes
   std::map<int, std::vector<std::size_t>> removed_;  // by tissue; -1: any

@@ -11,7 +11,7 @@
 #include "burr/sound/synth.h"
 #include "burr/workshop/allowed.h"
 #include "common.h"
-#include "scene.h"
+#include "scene_setup.h"
 
 namespace burr::python {
 namespace {
@@ -42,7 +42,7 @@ const char* word_of(workshop::Injury injury) {
   return "silent";
 }
 
-py::dict allowed(const Scene& scene, const std::string& mode, std::uint32_t attempt) {
+py::dict allowed(const SceneSetup& scene, const std::string& mode, std::uint32_t attempt) {
   record::Identity identity;
   const auto known = record::mode_of(mode);
   if (!known)
@@ -63,7 +63,7 @@ py::dict allowed(const Scene& scene, const std::string& mode, std::uint32_t atte
 
 }  // namespace
 
-void add_guidance(py::class_<Scene>& scene) {
+void add_guidance(py::class_<SceneSetup>& scene) {
   scene.def("allowed", &allowed, "mode"_a = "free", py::kw_only(), "attempt"_a = 0,
             "What the program offers and warns of in this mode (docs/use/window_steps.md).");
 }

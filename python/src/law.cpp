@@ -103,7 +103,7 @@ std::shared_ptr<tick::OwnLaw> own_law(const py::object& law, const std::string& 
 }
 
 void add_law(py::module_& module) {
-  py::class_<LawInput> input(module, "LawInput", "What a law of one's own knows in a tick.");
+  py::class_<LawInput> input(module, "LawInput", "What a custom law knows in a tick.");
   const auto number = [&input](const char* name, double burr_law_in_v1::*member) {
     input.def_property_readonly(name, [member](const LawInput& self) { return self.in.*member; });
   };

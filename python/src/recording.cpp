@@ -66,7 +66,7 @@ class Recording {
 
   std::unique_ptr<record::Player> player_;
   std::string path_;
-  scenario::Recipe given_;
+  scenario::BoneRecipe given_;
   std::unique_ptr<volume::Bone> before_;  // opened when first needed
   py::object ticks_;                      // read when first needed
   std::atomic<bool> busy_ = false;

@@ -25,7 +25,7 @@ constexpr int kMostPictures = 100;
 Result<report::Scored> scored_file(const std::string& file, const ReportWish& wish, Work& work) {
   auto judged = report::judged_by(file, wish.rubric);
   if (!judged) return judged.error();
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   volume.source = wish.volume;
   return report::scored(std::move(*judged), volume, work);
 }

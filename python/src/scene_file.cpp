@@ -14,7 +14,7 @@
 #include "burr/workshop/prebuilt_phantom.h"
 #include "burr/workshop/prepare.h"
 #include "common.h"
-#include "scene.h"
+#include "scene_setup.h"
 
 namespace burr::python {
 namespace {
@@ -38,7 +38,7 @@ std::string beside(const std::string& path, const fs::path& folder) {
 // True: the bone is that of a source and a voxel size, which a case can name.
 bool has_a_name(const BoneBox& box) {
   if (box.recipe.source.empty()) return false;
-  scenario::Recipe plain;
+  scenario::BoneRecipe plain;
   plain.source = box.recipe.source;
   plain.voxel_mm = box.recipe.voxel_mm;
   plain.reserve_bricks = box.recipe.reserve_bricks;
@@ -46,7 +46,7 @@ bool has_a_name(const BoneBox& box) {
 }
 
 // The number with the fewest digits that gives the same bits to a session.
-double shortest(const Scene& scene, const char* word) {
+double shortest(const SceneSetup& scene, const char* word) {
   const auto to_si = tick::setting_of_word(word)->about.typed.to_si;
   const double value = std::get<double>(scene.settings.at(word));
   for (int digits = 1; digits < 17; ++digits) {
@@ -57,7 +57,7 @@ double shortest(const Scene& scene, const char* word) {
 }
 
 // bone: the file of the bone; empty: that of the scene.
-std::string text_of(const Scene& scene, const fs::path& folder, const std::string& bone) {
+std::string text_of(const SceneSetup& scene, const fs::path& folder, const std::string& bone) {
   if (!scene.law.is_none())
     raise(
         "a case holds no law of your own; set scene.law to None, and set it again in the scene "
@@ -73,7 +73,7 @@ std::string text_of(const Scene& scene, const fs::path& folder, const std::strin
     file.title = scene.title.empty() ? kTitle : scene.title;
   else if (scene.title != scene.work->title)
     file.title = scene.title;
-  const scenario::Recipe& recipe = scene.bone->recipe;
+  const scenario::BoneRecipe& recipe = scene.bone->recipe;
   if (!bone.empty())
     file.volume = bone;
   else if (!has_a_name(*scene.bone))
@@ -101,7 +101,7 @@ std::string text_of(const Scene& scene, const fs::path& folder, const std::strin
   return take(scenario::write_case(file));
 }
 
-void save(const Scene& scene, const std::string& path, bool force) {
+void save(const SceneSetup& scene, const std::string& path, bool force) {
   const fs::path file(path);
   if (file.extension() != ".toml") raise(fmt::format("{}: the name must end in .toml", path));
   fs::path bone = file;
@@ -121,9 +121,9 @@ void save(const Scene& scene, const std::string& path, bool force) {
   check(written.put_in_place());
 }
 
-Scene from_toml(const std::string& text, const std::string& name, const std::string& folder,
-                const py::object& call) {
-  Scene scene;
+SceneSetup from_toml(const std::string& text, const std::string& name, const std::string& folder,
+                     const py::object& call) {
+  SceneSetup scene;
   scene.work = take(scenario::parse_case(text, name + ".toml"));
   for (std::string* path : {&scene.work->volume, &scene.work->rubric})
     if (!path->empty() && !folder.empty() && fs::path(*path).is_relative())
@@ -135,10 +135,10 @@ Scene from_toml(const std::string& text, const std::string& name, const std::str
 
 }  // namespace
 
-void add_scene_file(py::class_<Scene>& scene) {
+void add_scene_file(py::class_<SceneSetup>& scene) {
   scene.def(
       "to_toml",
-      [](const Scene& self, const std::string& folder) { return text_of(self, folder, {}); },
+      [](const SceneSetup& self, const std::string& folder) { return text_of(self, folder, {}); },
       py::kw_only(), "folder"_a = "",
       "The text of a case (docs/use/cases.md); paths are named from the folder.");
   scene.def_static("from_toml", &from_toml, "text"_a, py::kw_only(), "name"_a = "scene",

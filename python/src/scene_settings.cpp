@@ -7,7 +7,7 @@
 
 #include "burr/tick/setting_table.h"
 #include "common.h"
-#include "scene.h"
+#include "scene_setup.h"
 
 namespace burr::python {
 namespace {
@@ -15,12 +15,12 @@ namespace {
 using tick::About;
 
 template <class Value>
-void add_as(py::class_<Scene>& scene, const About& about) {
+void add_as(py::class_<SceneSetup>& scene, const About& about) {
   const char* word = about.typed.word;
   scene.def_property(
       tick::property_of(about),
-      [word](const Scene& self) { return std::get<Value>(self.settings.at(word)); },
-      [word](Scene& self, Value value) { self.settings[word] = std::move(value); });
+      [word](const SceneSetup& self) { return std::get<Value>(self.settings.at(word)); },
+      [word](SceneSetup& self, Value value) { self.settings[word] = std::move(value); });
 }
 
 bool of_a_scene(const About& about) {
@@ -29,7 +29,7 @@ bool of_a_scene(const About& about) {
 
 }  // namespace
 
-void Scene::put(const std::string& word, const base::Given& value) {
+void SceneSetup::put(const std::string& word, const base::Given& value) {
   base::Given& mine = settings.at(word);
   const auto* whole = std::get_if<std::int64_t>(&value);
   const auto* number = std::get_if<double>(&value);
@@ -41,7 +41,7 @@ void Scene::put(const std::string& word, const base::Given& value) {
     mine = value;
 }
 
-tick::ServoSettings servo_of(const Scene& scene) {
+tick::ServoSettings servo_of(const SceneSetup& scene) {
   tick::ServoSettings servo;
   check(tick::take_typed(
       scene.settings, [](const About& about) { return std::string(tick::property_of(about)); },
@@ -49,7 +49,7 @@ tick::ServoSettings servo_of(const Scene& scene) {
   return servo;
 }
 
-void add_settings(py::class_<Scene>& scene) {
+void add_settings(py::class_<SceneSetup>& scene) {
   for (const auto& one : tick::servo_settings()) {
     const About& about = one.about;
     if (!of_a_scene(about)) continue;

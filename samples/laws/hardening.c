@@ -1,4 +1,4 @@
-/* samples/laws/hardening.c - a force law of one's own: a spring that gets harder the deeper the hand is.
+/* samples/laws/hardening.c - a force custom law: a spring that gets harder the deeper the hand is.
  *
  *     F = k d (1 + d / d0)        d: depth, k: the stiffness that is set, d0: from the settings
  *

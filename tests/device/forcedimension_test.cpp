@@ -20,8 +20,8 @@
 #include "device/fake/fake_dhd.h"
 #include "device/stand_in.h"
 #include "support/folder.h"
-#include "support/places.h"
 #include "support/rt_guard.h"
+#include "support/test_places.h"
 
 namespace burr::device::forcedimension {
 namespace {

@@ -19,7 +19,7 @@
 #include "device/fake/fake_crtk.h"
 #include "device/fake/fake_polhem.h"
 #include "device/stand_in.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::device {
 namespace {

@@ -12,7 +12,7 @@
 #include "device/fake/fake_haply.h"
 #include "device/stand_in.h"
 #include "support/folder.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr {
 namespace {

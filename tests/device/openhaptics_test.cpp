@@ -15,8 +15,8 @@
 #include "burr/rt/flags.h"
 #include "device/fake/fake_hd.h"
 #include "device/stand_in.h"
-#include "support/places.h"
 #include "support/rt_guard.h"
+#include "support/test_places.h"
 
 namespace burr::device::openhaptics {
 namespace {

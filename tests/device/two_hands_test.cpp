@@ -16,7 +16,7 @@
 #include "device/fake/fake_hd.h"
 #include "device/slab.h"
 #include "device/stand_in.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::device {
 namespace {

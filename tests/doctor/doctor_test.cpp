@@ -12,12 +12,12 @@
 #include <thread>
 
 #include "device/fake/fake_hd.h"
+#include "doctor/doctor_checks.h"
 #include "doctor/finding.h"
 #include "doctor/fix.h"
-#include "doctor/look.h"
 #include "doctor/run_in_process.h"
 #include "support/folder.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::app {
 namespace {

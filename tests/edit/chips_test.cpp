@@ -1,6 +1,6 @@
 // The chips law compared with its own integrals, computed again finely and in another way, and with
 // measurements on bone.
-#include "burr/edit/laws/chips.h"
+#include "burr/edit/laws/chip_law.h"
 
 #include <gtest/gtest.h>
 

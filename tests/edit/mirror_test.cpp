@@ -14,7 +14,7 @@
 #include "burr/base/progress.h"
 #include "burr/edit/brush.h"
 #include "burr/edit/carve.h"
-#include "burr/edit/laws/thesis.h"
+#include "burr/edit/laws/thesis_law.h"
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
 #include "burr/volume/volume_of.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "burr/fit/least_squares.h"
-#include "fit/made_up.h"
+#include "fit/made_logs.h"
 
 namespace burr::fit {
 namespace {

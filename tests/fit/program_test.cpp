@@ -12,9 +12,9 @@
 #include <string>
 
 #include "burr/importing/materials.h"
-#include "fit/made_up.h"
-#include "io/folder.h"
-#include "support/places.h"
+#include "fit/made_logs.h"
+#include "io/folder_of_test.h"
+#include "support/test_places.h"
 
 namespace burr::fit {
 namespace {

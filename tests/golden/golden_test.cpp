@@ -22,7 +22,7 @@
 
 #include "render/gpu.h"
 #include "support/folder.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr {
 namespace {

@@ -7,7 +7,7 @@
 #include "burr/haptics/baselines/voxel_springs.h"
 #include "burr/haptics/force_law.h"
 #include "burr/haptics/touch_method.h"
-#include "haptics/scene.h"
+#include "haptics/touch_scene.h"
 #include "support/rt_guard.h"
 
 namespace burr::haptics {
@@ -16,8 +16,8 @@ namespace {
 using math::Vec3;
 constexpr double kMm = 1e-3;
 
-struct Scene : test::Scene {
-  using test::Scene::Scene;
+struct Scene : test::TouchScene {
+  using test::TouchScene::TouchScene;
   [[nodiscard]] std::unique_ptr<TouchMethod> method(Method which, double r, const Vec3& hand) {
     return make_method(which, surface, {.radius = r}, hand);
   }

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "scene.h"
 #include "support/rt_guard.h"
+#include "touch_scene.h"
 
 namespace burr::haptics {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using math::Pose;
 using math::Quat;
 using math::Vec3;
-using test::Scene;
+using test::TouchScene;
 
 constexpr double kMm = 1e-3, kRadius = 1.5e-3, kSlip = 30e-6;
 
@@ -31,7 +31,7 @@ ProxySettings settings() {
 }
 
 TEST(ShaftTouch, IsToTheBitTheBurrAloneWhereTheShaftTouchesNothing) {
-  const Scene scene(phantom::ball(5 * kMm), 0.25);
+  const TouchScene scene(phantom::ball(5 * kMm), 0.25);
   Proxy alone(scene.surface, settings(), {0, 0, 8 * kMm});
   ShaftTouch burr(scene.surface, settings(), {0, 0, 8 * kMm});
   int touching = 0;
@@ -52,7 +52,8 @@ TEST(ShaftTouch, IsToTheBitTheBurrAloneWhereTheShaftTouchesNothing) {
 // In a hole of 4 mm radius the hand leans until the shaft meets the rim, and on: the tool gives way,
 // stays out of bone, the head has none of the load, and no force leaps.
 TEST(ShaftTouch, LeansAgainstTheRimOfAHole) {
-  const Scene scene(phantom::without(phantom::slab(), phantom::cylinder(4 * kMm, 40 * kMm)), 0.25);
+  const TouchScene scene(phantom::without(phantom::slab(), phantom::cylinder(4 * kMm, 40 * kMm)),
+                         0.25);
   const Vec3 deep(0, 0, -9 * kMm);
   ShaftTouch burr(scene.surface, settings(), deep);
   SixProxy judge(
@@ -92,7 +93,8 @@ TEST(ShaftTouch, LeansAgainstTheRimOfAHole) {
 
 // A shaft that stands in bone when the burr is put down is felt only after it was free.
 TEST(ShaftTouch, AShaftPutDownInBoneIsNotFeltUntilItIsFree) {
-  const Scene scene(phantom::without(phantom::slab(), phantom::cylinder(4 * kMm, 40 * kMm)), 0.25);
+  const TouchScene scene(phantom::without(phantom::slab(), phantom::cylinder(4 * kMm, 40 * kMm)),
+                         0.25);
   const Vec3 deep(0, 0, -9 * kMm);
   ShaftTouch burr(scene.surface, settings(), deep);
   for (int n = 0; n < 50; ++n) {

@@ -11,9 +11,9 @@
 #include "burr/math/rotation.h"
 #include "burr/math/turn.h"
 #include "burr/rt/simd.h"
-#include "scene.h"
 #include "support/rt_guard.h"
 #include "tools.h"
+#include "touch_scene.h"
 
 namespace burr::haptics {
 namespace {
@@ -22,7 +22,7 @@ using math::Pose;
 using math::Quat;
 using math::Vec3;
 using test::one_part;
-using test::Scene;
+using test::TouchScene;
 using test::turn_about;
 using tool::Role;
 using tool::ShapeKind;
@@ -120,7 +120,7 @@ TEST(SixFriction, ABoxSlidesOnASlopeIfItIsSteeperThanMu) {
     for (const double share : {0.98, 1.02}) {
       const double slope = std::atan(share * mu);
       const Vec3 up(std::sin(slope), 0, std::cos(slope));
-      const Scene scene(phantom::slab(up), 0.25, 9);
+      const TouchScene scene(phantom::slab(up), 0.25, 9);
       const Quat along = math::shortest_rotation(Vec3::UnitZ(), up);
       SixProxy proxy(scene.surface, box(), {.lever = kLever}, {});
       proxy.set_friction({mu, mu});
@@ -141,7 +141,7 @@ TEST(SixFriction, ABoxSlidesOnASlopeIfItIsSteeperThanMu) {
 // it slides. A ring, on which a rigid face rests, would hold half as much again.
 TEST(SixFriction, ADiscSpunFlatHoldsTwoThirdsOfARing) {
   const Vec3 up = Vec3(0.2, 0.3, 1).normalized();
-  const Scene scene(phantom::slab(up), 0.25, 9);
+  const TouchScene scene(phantom::slab(up), 0.25, 9);
   const Quat along = math::shortest_rotation(Vec3::UnitZ(), up);
   for (const double radius : {2 * kMm, 3.5 * kMm}) {
     SixProxy proxy(scene.surface, disc(radius), {.lever = kLever}, {});
@@ -175,7 +175,7 @@ TEST(SixFriction, ADiscSpunFlatHoldsTwoThirdsOfARing) {
 // under a trembling hand.
 TEST(SixFriction, WhatSticksDoesNotCreep) {
   const Vec3 up = Vec3(0.3, 0.15, 1).normalized();
-  const Scene scene(phantom::slab(up), 0.25, 9);
+  const TouchScene scene(phantom::slab(up), 0.25, 9);
   const Quat along = math::shortest_rotation(Vec3::UnitZ(), up);
   SixProxy proxy(scene.surface, box(), {.lever = kLever}, {});
   proxy.set_friction({0.5, 0.45});
@@ -199,8 +199,8 @@ TEST(SixFriction, WhatSticksDoesNotCreep) {
 // Whatever the hand does in a slot that jams the blade: finite, and never pulled into the bone.
 TEST(SixFriction, AJammedBladeStaysFiniteAndOutsideOfTheBone) {
   const double wide = 0.8 * kMm;
-  const Scene scene([wide](const Vec3& p) { return std::min(std::abs(p.x()) - wide, -p.z()); },
-                    0.25, 9);
+  const TouchScene scene([wide](const Vec3& p) { return std::min(std::abs(p.x()) - wide, -p.z()); },
+                         0.25, 9);
   tool::Tool tool = one_part({ShapeKind::box, 0.3 * kMm, 4 * kMm, 3 * kMm, 0.2 * kMm});
   SixProxy proxy(scene.surface, tool, {}, {{0, 0, 8 * kMm}, Quat::Identity()});
   proxy.set_friction({0.3, 0.27});
@@ -226,7 +226,7 @@ TEST(SixFriction, AJammedBladeStaysFiniteAndOutsideOfTheBone) {
 }
 
 TEST(SixFriction, GivesTheSameBitsOnEveryInstructionSetAndTakesNoMemory) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   const rt::Simd best = rt::simd();
   std::vector<double> first;
   for (const rt::Simd simd : {rt::Simd::scalar, best}) {

@@ -13,10 +13,10 @@
 #include "burr/math/rotation.h"
 #include "burr/math/turn.h"
 #include "burr/rt/simd.h"
-#include "scene.h"
 #include "support/mesh.h"
 #include "support/rt_guard.h"
 #include "tools.h"
+#include "touch_scene.h"
 
 namespace burr::haptics {
 namespace {
@@ -25,7 +25,7 @@ using math::Pose;
 using math::Quat;
 using math::Vec3;
 using test::one_part;
-using test::Scene;
+using test::TouchScene;
 using test::turn_about;
 using tool::Role;
 using tool::ShapeKind;
@@ -104,7 +104,7 @@ TEST(LeastTwist, MeetsTheConditionsOfTheNearestAllowedMove) {
 
 TEST(SixProxy, ABallAloneRestsWhereTheProxyOfThreeUnknownsRestsWithoutTorque) {
   for (const bool groove : {false, true}) {
-    const Scene scene(groove ? phantom::groove(M_PI / 4) : phantom::ball(5 * kMm), 0.25);
+    const TouchScene scene(groove ? phantom::groove(M_PI / 4) : phantom::ball(5 * kMm), 0.25);
     const double r = 1.5 * kMm;
     const Vec3 start(0, 0, groove ? 6 * kMm : 8 * kMm);
     const Quat q = turn_about({1, 2, 3}, 0.4);
@@ -136,7 +136,7 @@ struct Roughness {
 };
 Roughness roughness(const tool::Tool& tool, const phantom::Depth& depth, double below,
                     bool planes) {
-  const Scene scene(depth, 0.25);
+  const TouchScene scene(depth, 0.25);
   SixProxy proxy(scene.surface, tool, {.lever = std::sqrt(300e-6), .planes = planes},
                  {{0, 0, 8 * kMm}, Quat::Identity()});
   std::vector<double> force, torque;
@@ -181,7 +181,7 @@ TEST(SixProxy, ASharpEdgeSlidesOverSmoothBoneWithoutHopping) {
 // The tip of a flame rests on the plane, not between its points.
 TEST(SixProxy, ASharpTipDoesNotSinkBetweenThePointsOfAPlane) {
   const Vec3 up = Vec3(0.1, 0.2, 1).normalized();
-  const Scene scene(phantom::slab(up), 0.25);
+  const TouchScene scene(phantom::slab(up), 0.25);
   const double rho = 0.1 * kMm, deep = 0.3 * kMm;
   const tool::Tool tip = one_part({ShapeKind::vesica, 1 * kMm, 0, 4 * kMm, rho});
   const Quat standing = math::shortest_rotation(Vec3::UnitZ(), up);
@@ -203,7 +203,7 @@ TEST(SixProxy, ASharpTipDoesNotSinkBetweenThePointsOfAPlane) {
 // ---- closed forms
 
 TEST(SixProxy, ACylinderLyingOnAPlaneIsPushedStraightBackWithoutTorque) {
-  const Scene scene(phantom::slab(Vec3(0.1, 0.2, 1)), 0.25);
+  const TouchScene scene(phantom::slab(Vec3(0.1, 0.2, 1)), 0.25);
   const Vec3 up = Vec3(0.1, 0.2, 1).normalized();
   const double a = 3 * kMm, deep = 0.5 * kMm;
   SixProxy proxy(scene.surface, one_part({ShapeKind::cylinder, 2.7 * kMm, 0, 3 * kMm, 0.3 * kMm}),
@@ -235,7 +235,7 @@ TEST(SixProxy, AMeshIsPushedAsTheBodyThatItIs) {
   // a mesh touches points and no planes
   const SixSettings settings = {.lever = std::sqrt(300e-6), .planes = false};
   for (const phantom::Depth& bone : bones) {
-    const Scene scene(bone, 0.25);
+    const TouchScene scene(bone, 0.25);
     for (const double tilt : {0.4, 1.2}) {
       const Pose from{{0.2 * kMm, 0.1 * kMm, 11 * kMm}, turn_about({1, 0.4, 0}, tilt)};
       Pose to = from;
@@ -259,8 +259,8 @@ TEST(SixProxy, AMeshIsPushedAsTheBodyThatItIs) {
 
 // One contact at the lever l from c: N = delta / (1/k_t + l^2/k_r), torque N l.
 TEST(SixProxy, AShaftAcrossAnEdgeGivesWayAsLeverAndStiffnessSay) {
-  const Scene scene(phantom::capsule({0, -30 * kMm, -4 * kMm}, {0, 30 * kMm, 4 * kMm}, 1 * kMm),
-                    0.25, 12);
+  const TouchScene scene(
+      phantom::capsule({0, -30 * kMm, -4 * kMm}, {0, 30 * kMm, 4 * kMm}, 1 * kMm), 0.25, 12);
   const double lever = std::sqrt(300e-6), delta = 0.5 * kMm, a = 1.2 * kMm;
   const Vec3 up = Vec3(0, -4, 30).normalized();  // the ridge is tilted against the lattice
   const Vec3 axis = Vec3::UnitX().cross(up);
@@ -282,7 +282,7 @@ TEST(SixProxy, AShaftAcrossAnEdgeGivesWayAsLeverAndStiffnessSay) {
 
 // Force and torque on the hand are the sums of the contacts', in every tick that has come to rest.
 TEST(SixProxy, TheWrenchIsTheSumOfTheContacts) {
-  const Scene scene(phantom::groove(M_PI / 5), 0.25);
+  const TouchScene scene(phantom::groove(M_PI / 5), 0.25);
   const double lever = 17 * kMm;
   SixProxy proxy(scene.surface, burr(1.5 * kMm), {.lever = lever},
                  {{0, 0, 9 * kMm}, Quat::Identity()});
@@ -314,7 +314,7 @@ TEST(SixProxy, NoPartEverCrossesAThinPlate) {
   constexpr unsigned kSeed = 7;
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
   const Vec3 up = Vec3(0.2, 0.3, 1).normalized();
-  const Scene scene(phantom::plate(0.6 * kMm, up), 0.3, 9);
+  const TouchScene scene(phantom::plate(0.6 * kMm, up), 0.3, 9);
   std::mt19937 random(kSeed);
   std::uniform_real_distribution<double> side(-5 * kMm, 5 * kMm), angle(-0.9, 0.9);
   tool::Tool tool = one_part({ShapeKind::box, 0.2 * kMm, 2 * kMm, 2 * kMm, 0.15 * kMm});
@@ -348,7 +348,7 @@ TEST(SixProxy, NoPartEverCrossesAThinPlate) {
 
 // At a held hand, V never rises from one move to the next.
 TEST(SixProxy, EnergyFallsWhileTheHandIsStill) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   const double lever = 17 * kMm;
   SixProxy proxy(scene.surface, burr(1 * kMm), {.lever = lever, .max_moves = 1},
                  {{0, 0, 30 * kMm}, Quat::Identity()});
@@ -364,7 +364,7 @@ TEST(SixProxy, EnergyFallsWhileTheHandIsStill) {
 
 // A replay must give the same bits on every processor.
 TEST(SixProxy, GivesTheSameBitsOnEveryInstructionSet) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   const rt::Simd best = rt::simd();
   std::vector<SixTouch> first;
   for (const rt::Simd set : {rt::Simd::scalar, rt::Simd::avx2, rt::Simd::avx512}) {
@@ -388,7 +388,7 @@ TEST(SixProxy, GivesTheSameBitsOnEveryInstructionSet) {
 }
 
 TEST(SixProxy, TakesNeitherMemoryNorLock) {
-  const Scene scene(phantom::ball(5 * kMm), 0.25);
+  const TouchScene scene(phantom::ball(5 * kMm), 0.25);
   SixProxy proxy(scene.surface, burr(1.5 * kMm), {}, {{0, 0, 8 * kMm}, Quat::Identity()});
   const test::RtGuard guard;
   for (int n = 0; n < 500; ++n)
@@ -400,7 +400,8 @@ TEST(SixProxy, TakesNeitherMemoryNorLock) {
 }
 
 TEST(SixProxy, KnowsWhetherEveryPartIsFree) {
-  const Scene scene(phantom::without(phantom::slab(), phantom::cylinder(4 * kMm, 20 * kMm)), 0.25);
+  const TouchScene scene(phantom::without(phantom::slab(), phantom::cylinder(4 * kMm, 20 * kMm)),
+                         0.25);
   SixProxy proxy(scene.surface, burr(1.5 * kMm), {}, {{0, 0, 9 * kMm}, Quat::Identity()});
   EXPECT_TRUE(proxy.is_free({{0, 0, -4 * kMm}, Quat::Identity()}));
   EXPECT_FALSE(proxy.is_free({{3 * kMm, 0, -4 * kMm}, Quat::Identity()}));      // the head

@@ -9,7 +9,7 @@
 #include "burr/haptics/force_law.h"
 #include "burr/haptics/proxy.h"
 #include "burr/volume/iso_vertices.h"
-#include "haptics/scene.h"
+#include "haptics/touch_scene.h"
 #include "support/rt_guard.h"
 
 namespace burr::haptics {
@@ -18,8 +18,8 @@ namespace {
 using math::Vec3;
 constexpr double kMm = 1e-3;
 
-struct Scene : test::Scene {
-  using test::Scene::Scene;
+struct Scene : test::TouchScene {
+  using test::TouchScene::TouchScene;
   // docs/understand/touch_truths.md, "Ground truths": max(0.02 mm, 0.1 h); 0.15 h at h = 0.5 mm
   [[nodiscard]] double tolerance() const {
     return std::max(0.02 * kMm, (h > 0.4 * kMm ? 0.15 : 0.1) * h);

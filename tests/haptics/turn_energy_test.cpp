@@ -8,12 +8,12 @@
 #include "burr/haptics/six/six_proxy.h"
 #include "burr/phantom/shapes.h"
 #include "burr/tool/tool.h"
-#include "haptics/scene.h"
+#include "haptics/touch_scene.h"
 
 namespace burr::haptics {
 namespace {
 
-using burr::test::Scene;
+using burr::test::TouchScene;
 using math::Pose;
 using math::Quat;
 using math::Vec3;
@@ -31,7 +31,7 @@ tool::Tool rod() {
 }
 
 struct Turner {
-  Scene scene{phantom::slab(Vec3::UnitX(), Vec3::Zero()), 0.25, 16};  // bone below x = 0
+  TouchScene scene{phantom::slab(Vec3::UnitX(), Vec3::Zero()), 0.25, 16};  // bone below x = 0
   double lever = std::sqrt(kTurning / kStiffness);
   SixProxy proxy{scene.surface, rod(), {.lever = lever}, {}};
   EnergyGuard guard;

@@ -13,9 +13,9 @@
 #include "burr/math/rotation.h"
 #include "burr/math/turn.h"
 #include "burr/rt/simd.h"
-#include "scene.h"
 #include "support/rt_guard.h"
 #include "tools.h"
+#include "touch_scene.h"
 
 namespace burr::haptics {
 namespace {
@@ -23,7 +23,7 @@ namespace {
 using math::Pose;
 using math::Quat;
 using math::Vec3;
-using test::Scene;
+using test::TouchScene;
 using test::turn_about;
 using tool::Role;
 using tool::Shape;
@@ -60,9 +60,9 @@ struct Pair {
   SixTouch touch_a, touch_b;
   bool together = false;
 
-  Pair(const Scene& scene, const tool::Tool& tool_a, const tool::Tool& tool_b, const Pose& at_a,
-       const Pose& at_b, const SixSettings& of_a = {}, const SixSettings& of_b = {},
-       double stiffness_a = 1000, double stiffness_b = 700)
+  Pair(const TouchScene& scene, const tool::Tool& tool_a, const tool::Tool& tool_b,
+       const Pose& at_a, const Pose& at_b, const SixSettings& of_a = {},
+       const SixSettings& of_b = {}, double stiffness_a = 1000, double stiffness_b = 700)
       : a(scene.surface, tool_a, of_a, at_a),
         b(scene.surface, tool_b, of_b, at_b),
         k_a(stiffness_a),
@@ -102,13 +102,13 @@ struct Pair {
 };
 
 // In free air: the bone is far below.
-Scene air() { return Scene(phantom::ball(2 * kMm), 0.5); }
+TouchScene air() { return TouchScene(phantom::ball(2 * kMm), 0.5); }
 const Vec3 kUp(0, 0, 60 * kMm);
 
 // ---- closed forms
 
 TEST(TwoTools, AShaftPressedOnAShaftPushesAsBothSpringsAndLeversSay) {
-  const Scene scene = air();
+  const TouchScene scene = air();
   for (const double l_a : {5 * kMm, 20 * kMm})
     for (const double l_b : {0.0, 15 * kMm})
       for (const double lever_b : {17 * kMm, 60 * kMm}) {
@@ -142,7 +142,7 @@ TEST(TwoTools, AShaftPressedOnAShaftPushesAsBothSpringsAndLeversSay) {
 }
 
 TEST(TwoTools, BallsPushAlongTheLineOfTheirCentres) {
-  const Scene scene = air();
+  const TouchScene scene = air();
   const Vec3 way = Vec3(1, 2, -0.5).normalized();
   const Pose at_a = {kUp, turn_about({1, 0, 3}, 1)}, at_b = {kUp - 3 * kMm * way, Quat::Identity()};
   Pair pair(scene, ball(2 * kMm), ball(0.99 * kMm), at_a, at_b);
@@ -156,7 +156,7 @@ TEST(TwoTools, BallsPushAlongTheLineOfTheirCentres) {
 // Side by side they meet along a line: pressed at its middle, neither turns; pressed beyond the end of
 // what they share, both do.
 TEST(TwoTools, SideBySideTheyRestOnALine) {
-  const Scene scene = air();
+  const TouchScene scene = air();
   const double r = 1 * kMm;
   const Pose at_a = {kUp, Quat::Identity()}, at_b = {kUp - Vec3(0, 2.01 * r, 0), at_a.q};
   tool::Tool even;
@@ -178,7 +178,7 @@ TEST(TwoTools, SideBySideTheyRestOnALine) {
 
 // Hands that swing across each other, fast, over bone: whatever they do, no tool is in the other.
 TEST(TwoTools, NeverGoThroughEachOther) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> any(-1, 1);
@@ -219,7 +219,7 @@ TEST(TwoTools, NeverGoThroughEachOther) {
 
 // At held hands, the springs' energy never rises from one move to the next.
 TEST(TwoTools, EnergyFallsWhileTheHandsAreStill) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   const double lever = 17 * kMm;
   const Pose at_a = {{-4 * kMm, 0, 20 * kMm}, Quat::Identity()},
              at_b = {{4 * kMm, 0, 20 * kMm}, Quat::Identity()};
@@ -242,7 +242,7 @@ TEST(TwoTools, EnergyFallsWhileTheHandsAreStill) {
 }
 
 TEST(TwoTools, ItDoesNotMatterWhichComesFirst) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   const Pose at_a = {{-4 * kMm, 0, 16 * kMm}, Quat::Identity()},
              at_b = {{4 * kMm, 0, 16 * kMm}, Quat::Identity()};
   Pair one(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b);
@@ -261,7 +261,7 @@ TEST(TwoTools, ItDoesNotMatterWhichComesFirst) {
 }
 
 TEST(TwoTools, FarApartEachIsAloneToTheBit) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   const Pose at_a = {{-8 * kMm, 0, 16 * kMm}, Quat::Identity()},
              at_b = {{8 * kMm, 0, 30 * kMm}, Quat::Identity()};
   Pair pair(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b);
@@ -276,7 +276,7 @@ TEST(TwoTools, FarApartEachIsAloneToTheBit) {
 }
 
 TEST(TwoTools, ThatOverlapWhenTheyAreTakenUpAreFeltOnceTheyWereApart) {
-  const Scene scene = air();
+  const TouchScene scene = air();
   const Pose at = {kUp, Quat::Identity()};
   Pair pair(scene, ball(2 * kMm), ball(2 * kMm), at, {kUp + Vec3(1 * kMm, 0, 0), at.q});
   pair.step(at, {kUp + Vec3(1 * kMm, 0, 0), at.q});
@@ -289,7 +289,7 @@ TEST(TwoTools, ThatOverlapWhenTheyAreTakenUpAreFeltOnceTheyWereApart) {
 
 // A replay must give the same bits on every processor.
 TEST(TwoTools, GiveTheSameBitsOnEveryInstructionSet) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   const rt::Simd best = rt::simd();
   std::vector<Vec3> first;
   bool met = false;
@@ -321,7 +321,7 @@ TEST(TwoTools, GiveTheSameBitsOnEveryInstructionSet) {
 }
 
 TEST(TwoTools, TakeNeitherMemoryNorLock) {
-  const Scene scene(phantom::gyroid(8 * kMm), 0.3, 9);
+  const TouchScene scene(phantom::gyroid(8 * kMm), 0.3, 9);
   const Pose at_a = {{-5 * kMm, 0, 14 * kMm}, Quat::Identity()},
              at_b = {{5 * kMm, 0, 14 * kMm}, Quat::Identity()};
   Pair pair(scene, burr(1.5 * kMm), shaft(1 * kMm), at_a, at_b);
@@ -340,13 +340,13 @@ TEST(TwoTools, TakeNeitherMemoryNorLock) {
 
 // ---- friction on the bone
 
-Scene floor() { return Scene(phantom::slab(), 0.25, 12); }  // its surface is z = 0
+TouchScene floor() { return TouchScene(phantom::slab(), 0.25, 12); }  // its surface is z = 0
 
 tool::Tool box() { return test::one_part({ShapeKind::box, 2 * kMm, 2 * kMm, 1 * kMm, 0.3 * kMm}); }
 
 // Beside a tool that it does not touch, each is held as if it were alone.
 TEST(TwoTools, FrictionHoldsThemOnTheBoneAsIfEachWereAlone) {
-  const Scene scene = floor();
+  const TouchScene scene = floor();
   const Pose at_a = {{0, 0, 3 * kMm}, Quat::Identity()},
              at_b = {{3.4 * kMm, 0, 4 * kMm}, Quat::Identity()};
   Pair pair(scene, box(), ball(1 * kMm), at_a, at_b);
@@ -389,7 +389,7 @@ TEST(TwoTools, FrictionHoldsThemOnTheBoneAsIfEachWereAlone) {
 // A box rests on the bone with the load N, a ball in the other hand pushes it from the side: it does not
 // move before the push is mu N, and then the push stays at that.
 TEST(TwoTools, AToolOnTheBoneHoldsAgainstTheOtherUntilItsConeIsFull) {
-  const Scene scene = floor();
+  const TouchScene scene = floor();
   const double r = 1.2 * kMm, delta = 0.8 * kMm, mu = 0.4;
   for (const double k_b : {300.0, 3000.0}) {
     const Pose at_a = {{0, 0, 4 * kMm}, Quat::Identity()},
@@ -433,7 +433,7 @@ TEST(TwoTools, AToolOnTheBoneHoldsAgainstTheOtherUntilItsConeIsFull) {
 // Hands that go round and round, pressing both tools on the bone and on each other, and then let go:
 // friction takes energy and never gives any.
 TEST(TwoTools, FrictionGivesTheHandsNoEnergy) {
-  const Scene scene = floor();
+  const TouchScene scene = floor();
   for (const unsigned seed : {1U, 2U, 3U}) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> any(0.5, 1.5);

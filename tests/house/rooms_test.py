@@ -13,8 +13,8 @@ GOOD = {
     "rt/ring.h": '#include "burr/base/check.h"\n',
     "base/check.h": "#include <vector>\n",
     "volume/bone.h": '#include "burr/rt/ring.h"\n#include "burr/math/vec3.h"\n',
-    "device/hand.h": "",
-    "haptics/proxy.cpp": '#include "burr/volume/bone.h"\n#include "burr/device/hand.h"\n',
+    "device/hand_state.h": "",
+    "haptics/proxy.cpp": '#include "burr/volume/bone.h"\n#include "burr/device/hand_state.h"\n',
     "render/gl/draw.cpp": "#include <epoxy/gl.h>\n#include <SDL.h>\n",
     "render/gl/worn.cpp": "#include <openxr/openxr.h>\n",
     "sound/speaker.cpp": '#include <SDL2/SDL.h>\n#include "burr/rt/ring.h"\n',
@@ -80,11 +80,11 @@ class Rooms(unittest.TestCase):
         self.assertIn("circle of files: src/burr/volume/a, src/burr/volume/b, src/burr/volume/c\n", said)
 
     def test_files_of_the_programs_are_looked_at_however_they_include(self):
-        page = '#include "page.h"\n#include "verify/report.h"\n'
+        page = '#include "page.h"\n#include "verify/verify_report.h"\n'
         code, said = run({**GOOD, "apps/burr/verify/page.h": "", "apps/burr/verify/page.cpp": page,
-                          "apps/burr/verify/report.h": "", "apps/burr/verify/report.cpp": '#include "page.h"\n'})
+                          "apps/burr/verify/verify_report.h": "", "apps/burr/verify/verify_report.cpp": '#include "page.h"\n'})
         self.assertEqual(code, 1)
-        self.assertIn("circle of files: apps/burr/verify/page, apps/burr/verify/report\n", said)
+        self.assertIn("circle of files: apps/burr/verify/page, apps/burr/verify/verify_report\n", said)
 
     def test_an_include_of_a_higher_floor_fails(self):
         app = {**GOOD, "apps/burr/shared/work.h": "", "apps/burr/window/ui/desk.h": '#include "shared/work.h"\n'}
@@ -128,7 +128,7 @@ class Rooms(unittest.TestCase):
         self.bad("everything.h", "", "lies in no room")
 
     def test_haptics_knows_only_the_hand_of_a_device(self):
-        self.bad("haptics/a.cpp", '#include "burr/device/device.h"\n', "of device, haptics may know only hand.h")
+        self.bad("haptics/a.cpp", '#include "burr/device/device.h"\n', "of device, haptics may know only hand_state.h")
 
     def test_graphics_stay_in_their_corner(self):
         self.bad("render/scene.cpp", "#include <epoxy/gl.h>\n", "graphics belongs into render/gl")

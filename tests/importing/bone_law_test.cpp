@@ -61,7 +61,7 @@ TEST(BoneLaw, IsTheRecipes) {
   for (int k = 0; k < 8; ++k)
     for (int v = 0; v < 16 * 16; ++v)
       scan.values.push_back(v == 100 && k == 2 ? 900.0F : k < 4 ? 280.0F : -1000.0F);
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   NoProgress progress;
   const auto now = import_bone(scan, recipe, progress);
   recipe.bone_law = 1;

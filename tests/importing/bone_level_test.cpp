@@ -111,14 +111,14 @@ TEST(BoneLevel, TheImportSaysThatItIsAnEstimateAndOldRecordingsGetOtsu) {
   EXPECT_NEAR(plan->iso, 1324, 40);
   EXPECT_NE(plan->notices.front().find("estimate"), std::string::npos) << plan->notices.front();
   EXPECT_NE(plan->notices.front().find("--iso"), std::string::npos);
-  scenario::Recipe old;
+  scenario::BoneRecipe old;
   old.check_values = false;
   const auto before = plan_import(scan, old);
   ASSERT_TRUE(before.ok());
   EXPECT_TRUE(before->iso_by_otsu);
   EXPECT_FALSE(before->iso_estimated);
   EXPECT_NEAR(before->iso, 600, 150) << "Otsu parts air from all else: the skin";
-  scenario::Recipe given;
+  scenario::BoneRecipe given;
   given.iso = 1500;
   EXPECT_FALSE(plan_import(scan, given)->iso_estimated);
 }

@@ -27,7 +27,7 @@ Result<io::Scan> report(const std::string& name) {
   NoProgress progress;
   return io::read_scan(test::data_dir() / "reports3" / name, {}, progress);
 }
-Result<Imported> made_of(const io::Scan& scan, const scenario::Recipe& recipe = {}) {
+Result<Imported> made_of(const io::Scan& scan, const scenario::BoneRecipe& recipe = {}) {
   NoProgress progress;
   return import_bone(scan, recipe, progress);
 }
@@ -41,7 +41,7 @@ std::string all_of(const std::vector<std::string>& notices) {
   return text;
 }
 // A refused plan, and what it says.
-std::string refusal(const io::Scan& scan, const scenario::Recipe& recipe = {}) {
+std::string refusal(const io::Scan& scan, const scenario::BoneRecipe& recipe = {}) {
   const auto plan = plan_import(scan, recipe);
   EXPECT_FALSE(plan.ok());
   return plan.ok() ? std::string() : plan.error().text;
@@ -69,7 +69,7 @@ TEST(ImportDoubts, AbsentSlicesStopUntilTheyAreAllowed) {
     const std::string why = refusal(*scan);
     EXPECT_NE(why.find("so slices are missing"), std::string::npos) << why;
     EXPECT_NE(why.find("--allow-missing"), std::string::npos) << why;
-    scenario::Recipe allowed;
+    scenario::BoneRecipe allowed;
     allowed.allow_missing = true;
     const auto plan = plan_import(*scan, allowed);
     ASSERT_TRUE(plan.ok()) << plan.error().text;
@@ -85,7 +85,7 @@ TEST(ImportDoubts, WhatIsNoCtStopsUntilItIsWantedAsItIs) {
   const std::string why = refusal(*scan);
   EXPECT_NE(why.find("(MR): bone is dark"), std::string::npos) << why;
   EXPECT_NE(why.find("--as-it-is"), std::string::npos) << why;
-  scenario::Recipe wanted;
+  scenario::BoneRecipe wanted;
   wanted.as_it_is = true;
   const auto plan = plan_import(*scan, wanted);
   ASSERT_TRUE(plan.ok()) << plan.error().text;
@@ -159,7 +159,7 @@ TEST(CutOff, HounsfieldUnitsBelowBoneAreRefusedAndAboveItSaid) {
   const std::string why = refusal(scan);
   EXPECT_NE(why.find("the highest (240)"), std::string::npos) << why;
   EXPECT_NE(why.find("bone begins at 300 HU"), std::string::npos) << why;
-  scenario::Recipe own;
+  scenario::BoneRecipe own;
   own.iso = 150;
   EXPECT_TRUE(plan_import(scan, own).ok());
   own = {};
@@ -221,7 +221,7 @@ TEST(ScanNotes, TheAreaOfBoneAtEachBorderIsThatOfItsVoxels) {
   scan.axes.col(1) = -Vec3::UnitY();
   plan = plan_import(scan, {});
   EXPECT_TRUE(says(plan->notices, "8 mm2 (left 3, head 5)")) << all_of(plan->notices);
-  scenario::Recipe region;
+  scenario::BoneRecipe region;
   region.region = scenario::Region{{4, 12}, {3, 12}, {3, 12}};
   plan = plan_import(scan, region);
   ASSERT_TRUE(plan.ok());

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "burr/volume/volume_of.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 
 namespace burr::importing {
 namespace {
@@ -44,7 +44,8 @@ io::Scan label_scan(const Ijk& size, const Vec3& spacing_mm,
   return scan;
 }
 
-std::unique_ptr<Bone> import_or_fail(const io::Scan& scan, const scenario::Recipe& options = {}) {
+std::unique_ptr<Bone> import_or_fail(const io::Scan& scan,
+                                     const scenario::BoneRecipe& options = {}) {
   NoProgress progress;
   auto made = import_bone(scan, options, progress);
   EXPECT_TRUE(made.ok()) << made.error().text;
@@ -120,7 +121,7 @@ Errors ball_errors(const Bone& bone, double radius, unsigned seed) {
 TEST(ImportGrey, ABallOfCtKeepsItsSurfaceAndItsNormals) {
   const io::Scan scan =
       grey_scan({60, 60, 60}, {0.5, 0.5, 0.5}, [](const Vec3& p) { return ct_ball(p, 10, 0.6); });
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.iso = 0;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
@@ -135,7 +136,7 @@ TEST(ImportGrey, ABallOfCtKeepsItsSurfaceAndItsNormals) {
 TEST(ImportGrey, ThickSlicesBecomeCubicAndKeepTheSurface) {
   const io::Scan scan =
       grey_scan({60, 60, 30}, {0.5, 0.5, 1.0}, [](const Vec3& p) { return ct_ball(p, 10, 0.8); });
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.iso = 0;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
@@ -149,7 +150,7 @@ TEST(ImportGrey, ThickSlicesBecomeCubicAndKeepTheSurface) {
 TEST(ImportGrey, TheFieldIsTheDistanceWhateverTheContrast) {
   const io::Scan scan = grey_scan({50, 50, 50}, {0.5, 0.5, 0.5},
                                   [](const Vec3& p) { return 600 + 0.4 * ct_ball(p, 9, 0.7); });
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.iso = 600;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
@@ -170,7 +171,7 @@ TEST(ImportGrey, NoiseIsMeasuredAndSmoothedUntilTouchIsSteady) {
   const io::Scan scan = grey_scan({60, 60, 60}, {0.5, 0.5, 0.5}, [&](const Vec3& p) {
     return ct_ball(p, 10, 0.6) + noise(random);
   });
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.iso = 0;
   options.smooth = 0;
   const auto rough = import_or_fail(scan, options);
@@ -216,7 +217,7 @@ TEST_F(ImportOwnMaterials, ReachEveryKindOfScan) {
   std::ofstream(path("m.toml")) << "[[material]]\nname = \"cortical bone\"\ncutting_energy_J_mm3 = "
                                    "{ value = 1.5, low = 1, high = 2, source = \"a test\", "
                                    "calibrated = true }\n";
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.materials = path("m.toml");
   io::Scan ct = grey_scan({24, 24, 24}, {0.5, 0.5, 0.5},
                           [](const Vec3& p) { return p.norm() < 4 ? 1200.0 : -1000.0; });
@@ -242,7 +243,7 @@ TEST(ImportGrey, WithoutHuTheLevelIsAnEstimateAndSaysSo) {
   EXPECT_TRUE(plan->iso_estimated);
   EXPECT_NEAR(plan->iso, 120, 5);
   EXPECT_NE(plan->notices.front().find("estimate"), std::string::npos);
-  scenario::Recipe old;
+  scenario::BoneRecipe old;
   old.check_values = false;
   const auto before = plan_import(scan, old);
   ASSERT_TRUE(before.ok());
@@ -255,7 +256,7 @@ TEST(ImportGrey, ABoneThatIsTurnedStaysTurned) {
   io::Scan scan = grey_scan({40, 44, 48}, {0.5, 0.5, 0.5},
                             [](const Vec3& p) { return ct_ball(p - Vec3(1, 2, 3), 6, 0.6); });
   scan.axes = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.iso = 0;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);
@@ -269,7 +270,7 @@ TEST(ImportGrey, ABoneThatIsTurnedStaysTurned) {
 TEST(ImportGrey, ARegionIsCountedAsTheFileCountsIt) {
   io::Scan scan = grey_scan({30, 30, 30}, {1, 1, 1},
                             [](const Vec3& p) { return p.z() > 6 ? 1000.0 : -1000.0; });
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.region = scenario::Region{{5, 14}, {6, 17}, {0, 9}};
   options.iso = 300;
   EXPECT_FALSE(plan_import(scan, options).ok()) << "only air there";
@@ -289,7 +290,7 @@ TEST(ImportGrey, ARegionIsCountedAsTheFileCountsIt) {
 TEST(ImportGrey, TheMemoryBudgetMakesVoxelsCoarserAndSaysSo) {
   const io::Scan scan = grey_scan({128, 128, 128}, {0.5, 0.5, 0.5},
                                   [](const Vec3& p) { return ct_ball(p, 20, 0.6); });
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.reserve_bricks = 64;
   options.memory_mb = 4;
   const auto plan = plan_import(scan, options);
@@ -310,7 +311,7 @@ TEST(ImportGrey, TheSameScanGivesTheSameBone) {
 TEST(ImportGrey, OneSliceOrNothingButAirIsASentence) {
   const io::Scan slice = grey_scan({30, 30, 1}, {1, 1, 1}, [](const Vec3&) { return 0.0; });
   EXPECT_NE(plan_import(slice, {}).error().text.find("not a volume"), std::string::npos);
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.iso = 5000;
   const io::Scan scan =
       grey_scan({30, 30, 30}, {1, 1, 1}, [](const Vec3& p) { return ct_ball(p, 9, 1); });
@@ -434,7 +435,7 @@ void expect_flat_face(const io::Scan& scan, double volume_mm3, double share) {
     }
   EXPECT_NEAR(volume::volume_of(*bone) * 1e9, volume_mm3, share * volume_mm3);
   EXPECT_NE(bone->tissue(12, 12, 22), 0);
-  scenario::Recipe before;
+  scenario::BoneRecipe before;
   before.margin = false;
   const auto old = import_or_fail(scan, before);
   ASSERT_TRUE(old);
@@ -495,7 +496,7 @@ TEST_F(ImportLabelsTable, OverridesTheNames) {
     return p.norm() < 5 ? 7 : p.norm() < 10 ? 1 : 0;
   });
   scan.label_names = {{1, "Bone", {1, 1, 1}}, {7, "Facial_Nerve", {1, 1, 0}}};
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.labels = path;
   const auto bone = import_or_fail(scan, options);
   ASSERT_TRUE(bone);

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 
 namespace burr::importing {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "burr/importing/tissues.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 
 namespace burr::importing {
 namespace {

@@ -149,12 +149,12 @@ double table(const Vec3& p) {
 double both(const Vec3& p) { return std::max(ball(p), table(p)); }
 const Ijk kSize(32, 32, 32);
 
-scenario::Recipe keeping(const scenario::Keep& keep) {
-  scenario::Recipe recipe;
+scenario::BoneRecipe keeping(const scenario::Keep& keep) {
+  scenario::BoneRecipe recipe;
   recipe.keep = keep;
   return recipe;
 }
-Imported made_of(const io::Scan& scan, const scenario::Recipe& recipe) {
+Imported made_of(const io::Scan& scan, const scenario::BoneRecipe& recipe) {
   NoProgress progress;
   auto made = import_bone(scan, recipe, progress);
   EXPECT_TRUE(made) << made.error().text;
@@ -258,10 +258,10 @@ double balls(const Vec3& p) {
 
 TEST(ChooseParts, BySizePointAndVolume) {
   const io::Scan scan = scan_of(kSize, balls);
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   recipe.smooth = 0;
   NoProgress progress;
-  const auto found = [&](const scenario::Recipe& wanted) {
+  const auto found = [&](const scenario::BoneRecipe& wanted) {
     auto plan = plan_import(scan, wanted);
     EXPECT_TRUE(plan) << plan.error().text;
     const Status counted = count_parts(scan, wanted, progress, *plan);
@@ -293,7 +293,7 @@ TEST(ChooseParts, APointBesideBoneIsSaid) {
   const io::Scan scan = scan_of(kSize, balls);
   NoProgress progress;
   const auto at = [&](const Vec3& voxel) {
-    scenario::Recipe recipe = keeping({0, {scan.origin_mm + voxel}});
+    scenario::BoneRecipe recipe = keeping({0, {scan.origin_mm + voxel}});
     recipe.smooth = 0;
     return import_bone(scan, recipe, progress);
   };
@@ -306,7 +306,7 @@ TEST(ChooseParts, APointBesideBoneIsSaid) {
   EXPECT_NE(far.error().text.find("nearest part is 4.5 mm away, at -12,21,19"), std::string::npos)
       << far.error().text;
   EXPECT_FALSE(at({1e9, 0, 0}));
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   recipe.drop_islands_mm3 = 1e6;
   const auto nothing = import_bone(scan, recipe, progress);
   ASSERT_FALSE(nothing);
@@ -321,7 +321,7 @@ void counts_as_a_flood_fill(const char* file, const std::optional<scenario::Regi
   NoProgress progress;
   const auto scan = io::read_scan((test::data_dir() / file).string(), {}, progress);
   ASSERT_TRUE(scan) << scan.error().text;
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   recipe.region = region;
   recipe.smooth = 0;
   auto plan = plan_import(*scan, recipe);

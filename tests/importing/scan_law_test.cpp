@@ -33,7 +33,7 @@ struct Judged {
   ScanLaw law;
   surface::Shells mesh;
 };
-Judged judge(const io::Scan& scan, const scenario::Recipe& recipe = {}) {
+Judged judge(const io::Scan& scan, const scenario::BoneRecipe& recipe = {}) {
   NoProgress progress;
   Judged out;
   auto plan = plan_import(scan, recipe);
@@ -103,7 +103,7 @@ TEST(ScanLaw, ValuesJustBelowTheLevelStayAir) {
     auto shapes = scenes::thin_shapes(seed, Vec3::Constant(0.5), 0);
     for (float& value : shapes.scan.values)
       if (value > 50 && value < 400) value = 300;
-    scenario::Recipe recipe;
+    scenario::BoneRecipe recipe;
     recipe.iso = 300.0005;
     expect_law(judge(shapes.scan, recipe));
   }
@@ -134,7 +134,7 @@ TEST(ScanLaw, WhatIsKeptIsWhatTheMeshHas) {
   if (kSlow) GTEST_SKIP() << "takes minutes with sanitizers; the release build asks it";
   BURR_NEEDS_DATA("skull_phantom/std_5mm_jpegll");
   const io::Scan scan = read(test::data_dir() / "skull_phantom/std_5mm_jpegll");
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   recipe.keep.largest = 1;
   const Judged one = judge(scan, recipe);
   EXPECT_EQ(one.mesh.parts, 1U);
@@ -181,7 +181,7 @@ TEST(ScanLaw, LabelMapsKeepTheirParts) {
     scan.values.clear();
     scan.hounsfield = false;
     scan.label_names.push_back({1, "Bone"});
-    scenario::Recipe recipe;
+    scenario::BoneRecipe recipe;
     auto plan = plan_import(scan, recipe);
     ASSERT_TRUE(plan.ok()) << plan.error().text;
     ASSERT_TRUE(count_parts(scan, recipe, progress, *plan).ok());

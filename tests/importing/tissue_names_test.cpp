@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "burr/importing/tissues.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 
 namespace burr::importing {
 namespace {

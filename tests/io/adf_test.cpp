@@ -14,7 +14,7 @@
 #include "burr/io/read/adf_folder.h"
 #include "burr/io/read/read_scan.h"
 #include "burr/io/read/yaml.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "support/data.h"
 
 namespace burr::io {
@@ -230,7 +230,7 @@ TEST_F(AdfFile, NamesByColour) {
   write(path("names.txt"),
         "9 255 249 219 1 1 1 \"Temporal bone\"\n2 244 214 49 1 1 1 \"Facial nerve\"\n"
         "1 1 2 3 1 1 1 \"Stapes\"\n");
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   recipe.labels = path("names.txt");
   const auto plan = importing::plan_import(*scan, recipe);
   ASSERT_TRUE(plan.ok()) << plan.error().text;

@@ -26,9 +26,9 @@
 #include <vector>
 
 #include "burr/io/read/read_scan.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "support/data.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::io {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "burr/io/read/dicom_seg.h"
 #include "burr/io/read/read_scan.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "io/seg_writer.h"
 #include "support/data.h"
 

@@ -15,7 +15,7 @@
 
 #include "burr/io/read/read_scan.h"
 #include "io/dicom_writer.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "support/data.h"
 
 namespace burr::io {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/folder.h"
-#include "surface/bones.h"
+#include "io/folder_of_test.h"
+#include "surface/surface_bones.h"
 
 namespace burr::io {
 namespace {

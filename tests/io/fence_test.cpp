@@ -21,9 +21,9 @@
 
 #include "burr/io/read/read_scan.h"
 #include "burr/io/sandbox/fence_walls.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "support/data.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::io {
 namespace {

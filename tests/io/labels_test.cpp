@@ -8,7 +8,7 @@
 
 #include "burr/io/read/label_lists.h"
 #include "burr/io/read/read_scan.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "support/data.h"
 
 namespace burr::io {

@@ -10,7 +10,7 @@
 
 #include "burr/importing/import.h"
 #include "burr/io/read/read_scan.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 
 namespace burr::io {
 namespace {
@@ -110,7 +110,7 @@ TEST_F(OddHeader, AColourInATableOfTissuesMustBeNumbers) {
       file("a.nrrd",
            "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nencoding: raw\n\n" + voxels));
   ASSERT_TRUE(scan.ok()) << scan.error().text;
-  scenario::Recipe options;
+  scenario::BoneRecipe options;
   options.labels = file("t.toml", "[[label]]\nvalue = 1\ncolour = [nan, 0, inf]\n");
   const auto plan = importing::plan_import(*scan, options);
   ASSERT_FALSE(plan.ok());

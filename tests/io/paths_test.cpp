@@ -11,7 +11,7 @@
 
 #include "burr/io/read/read_scan.h"
 #include "burr/io/read/readers.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "support/data.h"
 
 namespace burr::io {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "support/data.h"
 
 namespace burr::io {

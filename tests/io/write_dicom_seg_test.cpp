@@ -13,9 +13,9 @@
 #include "burr/io/read/dicom_seg.h"
 #include "burr/io/read/read_scan.h"
 #include "io/dicom_writer.h"
-#include "io/folder.h"
+#include "io/folder_of_test.h"
 #include "support/data.h"
-#include "surface/bones.h"
+#include "surface/surface_bones.h"
 
 namespace burr::io {
 namespace {

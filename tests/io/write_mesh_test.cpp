@@ -12,8 +12,8 @@
 #include <sstream>
 
 #include "burr/surface/mesher.h"
-#include "io/folder.h"
-#include "surface/bones.h"
+#include "io/folder_of_test.h"
+#include "surface/surface_bones.h"
 
 namespace burr::io {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 #include <sstream>
 
-#include "io/folder.h"
-#include "surface/bones.h"
+#include "io/folder_of_test.h"
+#include "surface/surface_bones.h"
 
 namespace burr::io {
 namespace {

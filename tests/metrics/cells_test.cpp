@@ -11,7 +11,7 @@
 #include "burr/metrics/no_cells.h"
 #include "burr/metrics/opened.h"
 #include "burr/metrics/thinned.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

@@ -17,7 +17,7 @@
 #include "burr/metrics/identified.h"
 #include "burr/metrics/skeletonised.h"
 #include "burr/metrics/solidity.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

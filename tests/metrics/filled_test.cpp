@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

@@ -19,7 +19,7 @@
 #include "burr/metrics/line_and_plane.h"
 #include "burr/metrics/plane_fit.h"
 #include "burr/metrics/same_math.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "burr/metrics/shares.h"
 #include "burr/metrics/skeletonised.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

@@ -11,7 +11,7 @@
 #include "burr/metrics/cover.h"
 #include "burr/metrics/intact_plate.h"
 #include "burr/metrics/intact_solid.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

@@ -12,7 +12,7 @@
 #include "burr/metrics/reaction.h"
 #include "burr/metrics/shaft.h"
 #include "burr/rt/flags.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 #include "metrics/ticks.h"
 
 namespace burr::metrics {

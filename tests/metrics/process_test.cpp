@@ -17,7 +17,7 @@
 #include "burr/metrics/visibility.h"
 #include "burr/record/player.h"
 #include "burr/record/recorder.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 #include "metrics/ticks.h"
 #include "record/made_up.h"
 

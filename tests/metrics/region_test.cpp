@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
-#include "burr/metrics/course.h"
-#include "metrics/bones.h"
+#include "burr/metrics/tube_course.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "burr/metrics/new_surface.h"
 #include "burr/metrics/overhang.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

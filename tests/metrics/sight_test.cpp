@@ -13,7 +13,7 @@
 #include "burr/metrics/stroke_direction.h"
 #include "burr/metrics/tremor.h"
 #include "burr/metrics/visibility.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 #include "metrics/ticks.h"
 
 namespace burr::metrics {

@@ -17,7 +17,7 @@
 #include "burr/metrics/removed.h"
 #include "burr/metrics/skeletonised.h"
 #include "burr/rt/simd.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::metrics {
 namespace {

@@ -1,4 +1,4 @@
-"""Laws of one's own: by the program (--law, verify law), compiled and as a function; and the observer of a session."""
+"""Custom laws: by the program (--law, verify law), compiled and as a function; and the observer of a session."""
 import gc
 import hashlib
 import json

@@ -15,7 +15,7 @@ BURR = os.environ["BURR_PROGRAM"]
 TOOLS = """
 [[tool]]
 name = "own-bur"
-title = "A bur of one's own"
+title = "A custom bur"
 source = "a test"
 drive = "turning"
 rpm = 31000

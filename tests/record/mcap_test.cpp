@@ -18,7 +18,7 @@
 #include "burr/record/mcap/packed.h"
 #include "burr/record/schema.h"
 #include "record/made_up.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::record {
 namespace {

@@ -12,13 +12,13 @@ namespace burr::record {
 namespace {
 
 using nlohmann::json;
-using scenario::Recipe;
+using scenario::BoneRecipe;
 using scenario::Region;
 
-Recipe any_recipe(test::Random& random) {
+BoneRecipe any_recipe(test::Random& random) {
   const auto coin = [&] { return random() % 2 == 0; };
   std::uniform_real_distribution<double> share(0, 1);
-  Recipe recipe;
+  BoneRecipe recipe;
   recipe.source = coin() ? "phantom:jaw" : "/home/anna/scan.nrrd";
   if (coin()) recipe.series = coin() ? "#3" : "1.2.840.113619.2.55.3.604688119.971";
   if (coin()) recipe.spacing_mm = {0.1 + share(random), 0.1 + share(random), 1.0 / 3};
@@ -71,7 +71,7 @@ TEST(RecordedRecipe, OfAnOlderRecordingIsTheSame) {
   auto read = session_from_json(
       old_session(usual, {{"format", "formula"}, {"phantom", "temporal-bone"}}), "old.mcap");
   ASSERT_TRUE(read) << read.error().text;
-  Recipe wanted;
+  BoneRecipe wanted;
   wanted.source = "phantom:temporal-bone";
   wanted.voxel_mm = 0.25;
   wanted.reserve_bricks = 77;

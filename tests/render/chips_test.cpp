@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "burr/render/wound.h"
-#include "render/shapes.h"
+#include "render/formula_surfaces.h"
 
 namespace burr::render {
 namespace {

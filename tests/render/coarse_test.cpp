@@ -20,8 +20,8 @@
 #include "burr/render/renderer.h"
 #include "burr/render/thin_patch.h"
 #include "burr/surface/mesher.h"
+#include "render/formula_surfaces.h"
 #include "render/gpu.h"
-#include "render/shapes.h"
 
 namespace burr::render {
 namespace {

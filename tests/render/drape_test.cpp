@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "burr/render/microscope.h"
-#include "shapes.h"
+#include "formula_surfaces.h"
 
 namespace burr::render {
 namespace {

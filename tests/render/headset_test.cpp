@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "render/formula_surfaces.h"
 #include "render/gpu.h"
 #include "render/openxr/worn.h"
-#include "render/shapes.h"
 
 namespace burr::render {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "burr/render/pick.h"
-#include "shapes.h"
+#include "formula_surfaces.h"
 
 namespace burr::render {
 namespace {

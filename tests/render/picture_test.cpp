@@ -20,8 +20,8 @@
 #include "burr/math/rotation.h"
 #include "burr/render/bone_scene.h"
 #include "burr/render/pick.h"
+#include "render/formula_surfaces.h"
 #include "render/gpu.h"
-#include "render/shapes.h"
 #include "support/folder.h"
 
 namespace burr::render {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "render/shapes.h"
+#include "render/formula_surfaces.h"
 
 namespace burr::render {
 namespace {

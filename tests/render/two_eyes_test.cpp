@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "burr/render/stereo.h"
+#include "render/formula_surfaces.h"
 #include "render/gpu.h"
-#include "render/shapes.h"
 
 namespace burr::render {
 namespace {

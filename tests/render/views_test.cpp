@@ -11,8 +11,8 @@
 
 #include "burr/render/pick.h"
 #include "burr/render/stereo.h"
+#include "render/formula_surfaces.h"
 #include "render/gpu.h"
-#include "render/shapes.h"
 
 namespace burr::render {
 namespace {

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
+#include "render/formula_surfaces.h"
 #include "render/gpu.h"
-#include "render/shapes.h"
 
 namespace burr::render {
 namespace {

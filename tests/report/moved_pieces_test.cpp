@@ -50,7 +50,7 @@ void record_session(const std::string& file, const Vec3& by, const Vec3& turn,
                     Ends ends = Ends::whole) {
   NoProgress quiet;
   const scenario::Case work = planned();
-  scenario::Recipe coarse;
+  scenario::BoneRecipe coarse;
   coarse.voxel_mm = 0.5;
   auto prepared = workshop::prepare(work, quiet, {}, coarse);
   ASSERT_TRUE(prepared.ok()) << prepared.error().text;

@@ -16,7 +16,7 @@
 #include "burr/report/report_words.h"
 #include "burr/report/self_marks.h"
 #include "burr/words/words.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::report {
 namespace {

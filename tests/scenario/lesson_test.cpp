@@ -110,7 +110,7 @@ std::string line_of(const std::string& text, const std::string& what) {
              1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-TEST(Lesson, EveryFieldIsReadInMetres) {
+TEST(CaseLesson, EveryFieldIsReadInMetres) {
   const auto read = parse_lesson(kGood, "my.toml");
   ASSERT_TRUE(read) << read.error().text;
   EXPECT_EQ(read->format, 2);
@@ -163,7 +163,7 @@ TEST(Lesson, EveryFieldIsReadInMetres) {
   EXPECT_DOUBLE_EQ(read->reference->leave.at(0).second, 1e-3);
 }
 
-TEST(Lesson, NamesOfLandmarksBecomePoints) {
+TEST(CaseLesson, NamesOfLandmarksBecomePoints) {
   auto read = parse_lesson(kGood, "my.toml");
   ASSERT_TRUE(read) << read.error().text;
   const Landmark of_the_bone[] = {{"entry", {}, {math::Vec3(9, 9, 9)}, {}, 0},
@@ -188,7 +188,7 @@ TEST(Lesson, NamesOfLandmarksBecomePoints) {
   EXPECT_NE(placed->landmark("antrum"), nullptr);
 }
 
-TEST(Lesson, ALandmarkThatNobodyHasIsNamedWithItsLine) {
+TEST(CaseLesson, ALandmarkThatNobodyHasIsNamedWithItsLine) {
   const std::string text = with(kGood, "at = \"entry\"", "at = \"the moon\"");
   const auto read = parse_lesson(text, "my.toml");
   ASSERT_TRUE(read) << "the bone may have it: " << read.error().text;
@@ -207,7 +207,7 @@ TEST(Lesson, ALandmarkThatNobodyHasIsNamedWithItsLine) {
   EXPECT_NE(shown.error().text.find("\"moon\""), std::string::npos);
 }
 
-TEST(Lesson, APieceIsPlannedFromALandmark) {
+TEST(CaseLesson, APieceIsPlannedFromALandmark) {
   const std::string text = std::string(kGood) +
                            "[[piece]]\ntitle.en = \"chin\"\ntitle.sv = \"haka\"\nnear = \"entry\"\n"
                            "by_mm = [0, -5, 0]\nturn_deg = [0, 0, 90]\n";
@@ -240,7 +240,7 @@ TEST(Lesson, APieceIsPlannedFromALandmark) {
   }
 }
 
-TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {
+TEST(CaseLesson, MistakesAreNamedByFileLineFieldAndRemedy) {
   struct Mistake {
     std::string from, to, field, says;
   };
@@ -322,7 +322,7 @@ TEST(Lesson, MistakesAreNamedByFileLineFieldAndRemedy) {
 }
 
 // Above the limits the work of checking grows with the square of a list, or worse.
-TEST(Lesson, ListsAndTextsHaveALimit) {
+TEST(CaseLesson, ListsAndTextsHaveALimit) {
   const auto repeated = [](const std::string& text, int times) {
     std::string all;
     for (int n = 0; n < times; ++n) all += with(text, "#", std::to_string(n));
@@ -355,7 +355,7 @@ TEST(Lesson, ListsAndTextsHaveALimit) {
 }
 
 // As many ways through the steps as there can be: each step comes before all later ones.
-TEST(Lesson, ACircleIsFoundAmongTwoHundredSteps) {
+TEST(CaseLesson, ACircleIsFoundAmongTwoHundredSteps) {
   std::string text =
       "format = 2\ntitle = \"Many\"\nphantom = \"block\"\n"
       "[burr]\ndiameter_mm = 4\nrpm = 60000\n";
@@ -373,7 +373,7 @@ TEST(Lesson, ACircleIsFoundAmongTwoHundredSteps) {
   EXPECT_NE(bad.error().text.find("circle"), std::string::npos) << bad.error().text;
 }
 
-TEST(Lesson, TheLineIsThatOfTheMistake) {
+TEST(CaseLesson, TheLineIsThatOfTheMistake) {
   for (const auto& [from, to] : {std::pair{"diameter_mm = 4\n", "diameter_mm = 70\n"},
                                  std::pair{"pieces = [1, 2]", "pieces = [2, 1]"},
                                  std::pair{"{ shape = \"box\"", "{ shape = \"bax\""},
@@ -386,7 +386,7 @@ TEST(Lesson, TheLineIsThatOfTheMistake) {
   }
 }
 
-TEST(Lesson, ACaseOfFormatOneHasAnEmptyLesson) {
+TEST(CaseLesson, ACaseOfFormatOneHasAnEmptyLesson) {
   const auto work = parse_case(
       "title = \"Old\"\nphantom = \"block\"\n[burr]\ndiameter_mm = 4\nrpm = 60000\n", "old.toml");
   ASSERT_TRUE(work) << work.error().text;
@@ -397,14 +397,14 @@ TEST(Lesson, ACaseOfFormatOneHasAnEmptyLesson) {
   EXPECT_EQ(lesson->title.in("en"), "Old");
 }
 
-TEST(Lesson, ATitleInSeveralLanguagesIsEnglishInTheCase) {
+TEST(CaseLesson, ATitleInSeveralLanguagesIsEnglishInTheCase) {
   const auto work = parse_case(kGood, "my.toml");
   ASSERT_TRUE(work) << work.error().text;
   EXPECT_EQ(work->title, "A lesson");
   EXPECT_EQ(lesson_of(*work)->title.in("sv"), "En lektion") << "the recording's text holds it";
 }
 
-TEST(Lesson, NoTextHoweverBrokenDoesHarm) {
+TEST(CaseLesson, NoTextHoweverBrokenDoesHarm) {
   const std::uint64_t seed = 26;
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937_64 random(seed);
@@ -425,7 +425,7 @@ TEST(Lesson, NoTextHoweverBrokenDoesHarm) {
   }
 }
 
-TEST(Lesson, BuiltInCasesOfFormatTwoSpeakThreeLanguages) {
+TEST(CaseLesson, BuiltInCasesOfFormatTwoSpeakThreeLanguages) {
   int count = 0;
   for (const std::string& name : built_in_cases()) {
     SCOPED_TRACE(name);
@@ -450,7 +450,7 @@ TEST(Lesson, BuiltInCasesOfFormatTwoSpeakThreeLanguages) {
 }
 
 // A case may name a landmark that its bone has, without saying again where it is.
-TEST(Lesson, ATitleAloneNamesALandmarkOfTheBone) {
+TEST(CaseLesson, ATitleAloneNamesALandmarkOfTheBone) {
   const std::string with =
       std::string(kGood) +
       "[[landmark]]\nname = \"spine\"\ntitle = { en = \"spine\", sv = \"tagg\" }\n"

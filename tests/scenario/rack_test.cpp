@@ -1,4 +1,4 @@
-// The tools of tools/tools.toml, and mistakes in a file of one's own.
+// The tools of tools/tools.toml, and mistakes in a user's file.
 #include "burr/scenario/rack.h"
 
 #include <gtest/gtest.h>

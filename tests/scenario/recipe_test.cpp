@@ -12,14 +12,14 @@
 namespace burr::scenario {
 namespace {
 
-TEST(Recipe, ComesBackToTheBitThroughJson) {
+TEST(BoneRecipe, ComesBackToTheBitThroughJson) {
   constexpr std::uint64_t kSeed = 21;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> share(0, 1);
   const auto coin = [&] { return random() % 2 == 0; };
   for (int n = 0; n < 2000; ++n) {
-    Recipe recipe;
+    BoneRecipe recipe;
     if (coin()) recipe.source = coin() ? "phantom:jaw" : "/scans/\xc3\xa5 \"b\"\n.nrrd";
     if (coin()) recipe.series = "#3";
     if (coin()) recipe.spacing_mm = {1e-9 + share(random), 1e-9 + share(random), 1.0 / 3};
@@ -57,27 +57,27 @@ TEST(Recipe, ComesBackToTheBitThroughJson) {
 }
 
 // A recording that does not name the margin is older, and its bone had none.
-TEST(Recipe, WithoutAWordOfTheMarginHasNone) {
+TEST(BoneRecipe, WithoutAWordOfTheMarginHasNone) {
   const auto old = recipe_from_json(R"({"source": "", "voxel_mm": 0})", "x");
   ASSERT_TRUE(old) << old.error().text;
   EXPECT_FALSE(old->margin);
-  EXPECT_TRUE(Recipe{}.margin);
+  EXPECT_TRUE(BoneRecipe{}.margin);
   EXPECT_FALSE(old->check_values);
-  EXPECT_TRUE(Recipe{}.check_values);
+  EXPECT_TRUE(BoneRecipe{}.check_values);
   EXPECT_FALSE(old->check_scan);
-  EXPECT_TRUE(Recipe{}.check_scan);
+  EXPECT_TRUE(BoneRecipe{}.check_scan);
   EXPECT_EQ(old->bone_law, 1);
-  EXPECT_EQ(Recipe{}.bone_law, 2);
+  EXPECT_EQ(BoneRecipe{}.bone_law, 2);
 }
 
-TEST(Recipe, WithoutPathsNamesNobody) {
-  Recipe recipe;
+TEST(BoneRecipe, WithoutPathsNamesNobody) {
+  BoneRecipe recipe;
   recipe.source = "/home/anna/ct";
   recipe.series = "1.2.840.113619";
   recipe.labels = "/home/anna/l.toml";
   recipe.materials = "m.toml";
   recipe.iso = 300;
-  const Recipe bare = without_paths(recipe);
+  const BoneRecipe bare = without_paths(recipe);
   EXPECT_EQ(bare.source, "");
   EXPECT_EQ(bare.series, kOwn);
   EXPECT_EQ(bare.labels, kOwn);
@@ -91,7 +91,7 @@ TEST(Recipe, WithoutPathsNamesNobody) {
   EXPECT_EQ(phantom_name("jaw"), "");
 }
 
-TEST(Recipe, OfTheWrongKindIsRefusedByField) {
+TEST(BoneRecipe, OfTheWrongKindIsRefusedByField) {
   for (const auto& [text, field] : std::initializer_list<std::pair<const char*, const char*>>{
            {R"({"voxel_mm": "fine"})", "voxel_mm"},
            {R"({"voxel_mm": -1})", "voxel_mm"},
@@ -116,7 +116,7 @@ TEST(Recipe, OfTheWrongKindIsRefusedByField) {
   EXPECT_FALSE(recipe_from_json("[]", "f.json"));
 }
 
-TEST(Recipe, IsTypedInVoxelsLevelsAndMillimetres) {
+TEST(BoneRecipe, IsTypedInVoxelsLevelsAndMillimetres) {
   const auto region = parse_region("10,200,0,99,5,80");
   ASSERT_TRUE(region) << region.error().text;
   EXPECT_TRUE((*region == Region{{10, 200}, {0, 99}, {5, 80}}));
@@ -130,7 +130,7 @@ TEST(Recipe, IsTypedInVoxelsLevelsAndMillimetres) {
     EXPECT_FALSE(parse_spacing(wrong)) << wrong;
 }
 
-TEST(Recipe, PartsToKeepAreTypedAsANumberOrPoints) {
+TEST(BoneRecipe, PartsToKeepAreTypedAsANumberOrPoints) {
   EXPECT_EQ(parse_keep("largest")->largest, 1);
   EXPECT_EQ(parse_keep("3")->largest, 3);
   EXPECT_EQ(parse_keep("3 largest")->largest, 3);

@@ -13,8 +13,8 @@
 #include "burr/school/export.h"
 #include "burr/school/forget.h"
 #include "burr/school/pending.h"
-#include "burr/school/schema.h"
 #include "burr/school/sessions.h"
+#include "burr/school/store_schema.h"
 #include "school/made.h"
 #include "support/postgres_server.h"
 

@@ -19,7 +19,7 @@ namespace burr::scoring {
 namespace {
 
 // The plans of all steps, without any error of perception.
-surgeon::FieldGrid whole_plan(const volume::Bone& bone, const scenario::Lesson& lesson,
+surgeon::FieldGrid whole_plan(const volume::Bone& bone, const scenario::CaseLesson& lesson,
                               const surgeon::Believed& seen) {
   const surgeon::Spare spare = surgeon::spare_of(bone.grid(), lesson, seen, 0);
   surgeon::FieldGrid all(bone.grid());
@@ -59,7 +59,7 @@ TEST(Plan, OfTheTemporalBoneHoldsWhatItsRubricAsksFor) {
   const auto lesson =
       scenario::place(std::move(*read), workshop::landmarks_of(*work), "temporal-bone.toml");
   ASSERT_TRUE(lesson) << lesson.error().text;
-  scenario::Recipe coarse;
+  scenario::BoneRecipe coarse;
   coarse.voxel_mm = 0.5;
   NoProgress quiet;
   const auto made = workshop::open_bone(workshop::recipe_of(*work, coarse), quiet);

@@ -18,7 +18,7 @@
 #include "burr/scenario/open_lesson.h"
 #include "burr/scoring/score.h"
 #include "burr/scoring/step_order.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 #include "metrics/ticks.h"
 #include "record/made_up.h"
 

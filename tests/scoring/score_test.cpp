@@ -20,7 +20,7 @@
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::scoring {
 namespace {
@@ -222,7 +222,7 @@ TEST(Score, TheUntouchedTemporalBoneMeetsNothing) {
       scenario::place(std::move(*read), workshop::landmarks_of(*work), "temporal-bone.toml");
   ASSERT_TRUE(lesson) << lesson.error().text;
   ASSERT_TRUE(check(*rubric, *lesson)) << check(*rubric, *lesson).error().text;
-  scenario::Recipe coarse;
+  scenario::BoneRecipe coarse;
   coarse.voxel_mm = 0.5;
   NoProgress quiet;
   const auto made = workshop::open_bone(workshop::recipe_of(*work, coarse), quiet);

@@ -26,7 +26,7 @@ namespace burr::scoring {
 namespace {
 
 using math::Vec3;
-using scenario::Lesson;
+using scenario::CaseLesson;
 
 constexpr double kMm = 1e-3;
 
@@ -45,7 +45,7 @@ class Shape : public ::testing::TestWithParam<std::pair<const char*, double>> {
     lesson_ = std::move(*placed);
     ASSERT_TRUE(check(rubric_, lesson_)) << check(rubric_, lesson_).error().text;
     for (std::unique_ptr<volume::Bone>* bone : {&before_, &after_}) {
-      scenario::Recipe coarse;
+      scenario::BoneRecipe coarse;
       coarse.voxel_mm = voxel_mm;
       auto made = workshop::open_bone(workshop::recipe_of(*work, coarse), quiet_);
       ASSERT_TRUE(made) << made.error().text;
@@ -54,8 +54,8 @@ class Shape : public ::testing::TestWithParam<std::pair<const char*, double>> {
   }
 
   // wrong: changes the plan that is cut, not the one that is scored
-  void cut(const std::function<void(Lesson&)>& wrong = {}) {
-    Lesson plan = lesson_;
+  void cut(const std::function<void(CaseLesson&)>& wrong = {}) {
+    CaseLesson plan = lesson_;
     if (wrong) wrong(plan);
     ASSERT_TRUE(cut_to_reference(*after_, *before_, plan, quiet_));
   }
@@ -75,11 +75,11 @@ class Shape : public ::testing::TestWithParam<std::pair<const char*, double>> {
 
   NoProgress quiet_;
   Rubric rubric_;
-  Lesson lesson_;
+  CaseLesson lesson_;
   std::unique_ptr<volume::Bone> before_, after_;
 };
 
-scenario::CaseRegion& region_of(Lesson& lesson, const std::string& name) {
+scenario::CaseRegion& region_of(CaseLesson& lesson, const std::string& name) {
   for (scenario::CaseRegion& one : lesson.regions)
     if (one.name == name) return one;
   throw std::out_of_range(name);
@@ -106,19 +106,19 @@ class WrongShape : public Shape {};
 
 TEST_F(WrongShape, AGrooveThatIsTooWideAndDeepLosesDepthAndEdges) {
   open("block", 0.4);
-  cut([](Lesson& plan) { region_of(plan, "groove").add.front().radius = 2.9 * kMm; });
+  cut([](CaseLesson& plan) { region_of(plan, "groove").add.front().radius = 2.9 * kMm; });
   EXPECT_EQ(unmet(),
             (std::set<std::string>{"groove.kept-narrow", "groove.depth", "groove.outline"}));
 }
 
 TEST_F(WrongShape, AShortGrooveIsNotCleared) {
   open("block", 0.4);
-  cut([](Lesson& plan) { region_of(plan, "groove").add.front().b.at.x() = 4 * kMm; });
+  cut([](CaseLesson& plan) { region_of(plan, "groove").add.front().b.at.x() = 4 * kMm; });
   EXPECT_EQ(unmet(), (std::set<std::string>{"groove.cleared", "groove.outline"}));
 }
 
 // The corridor turned about its entry by 8 degrees, in the plane of the axes a and b.
-void turn_corridor(Lesson& plan, int a, int b) {
+void turn_corridor(CaseLesson& plan, int a, int b) {
   std::vector<Vec3>& axis = region_of(plan, "left corridor").add.front().points;
   const Vec3 entry = axis.front(), whole = axis.back() - entry;
   const double by = 8 * M_PI / 180;
@@ -130,21 +130,21 @@ void turn_corridor(Lesson& plan, int a, int b) {
 
 TEST_F(WrongShape, ACorridorTurnedOutwardsLosesTheAngleFromAboveAndTheEnd) {
   open("spine", 0.4);
-  cut([](Lesson& plan) { turn_corridor(plan, 0, 1); });
+  cut([](CaseLesson& plan) { turn_corridor(plan, 0, 1); });
   EXPECT_EQ(unmet(), (std::set<std::string>{"left.angle-axial", "left.end", "left.cleared",
                                             "left.one-way"}));
 }
 
 TEST_F(WrongShape, ACorridorTurnedUpwardsLosesTheAngleFromTheSideAndTheEnd) {
   open("spine", 0.4);
-  cut([](Lesson& plan) { turn_corridor(plan, 1, 2); });
+  cut([](CaseLesson& plan) { turn_corridor(plan, 1, 2); });
   EXPECT_EQ(unmet(), (std::set<std::string>{"left.angle-sagittal", "left.end", "left.cleared",
                                             "left.one-way"}));
 }
 
 TEST_F(WrongShape, ACorridorAtTheSideOfThePedicleLosesTheBoneRoundTheScrew) {
   open("spine", 0.4);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     for (Vec3& point : region_of(plan, "left corridor").add.front().points) point.x() += 4 * kMm;
   });
   EXPECT_EQ(unmet(), (std::set<std::string>{"left.entry", "left.end", "left.in-bone",
@@ -154,13 +154,13 @@ TEST_F(WrongShape, ACorridorAtTheSideOfThePedicleLosesTheBoneRoundTheScrew) {
 // as wide as the screw and half as much again
 TEST_F(WrongShape, ACorridorThatIsTooWideLosesItsWidthAndTheBoneBeside) {
   open("spine", 0.4);
-  cut([](Lesson& plan) { region_of(plan, "left corridor").add.front().radius = 3.6 * kMm; });
+  cut([](CaseLesson& plan) { region_of(plan, "left corridor").add.front().radius = 3.6 * kMm; });
   EXPECT_EQ(unmet(), (std::set<std::string>{"left.width", "left.one-way"}));
 }
 
 TEST_F(WrongShape, ABedThatIsTooDeepLosesItsDepthAndTheDistanceToTheNerve) {
   open("jaw", 0.4);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     scenario::Shape& bed = region_of(plan, "implant bed").add.front();
     bed.points.back().z() -= 5 * kMm;
     plan.reference->leave.clear();
@@ -172,7 +172,7 @@ TEST_F(WrongShape, ABedThatIsTooDeepLosesItsDepthAndTheDistanceToTheNerve) {
 // the denominator.
 TEST_F(WrongShape, HalfABedIsUnmetAndNotLeftOut) {
   open("jaw", 0.4);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     std::vector<Vec3>& axis = region_of(plan, "implant bed").add.front().points;
     axis.back() = axis.front() + 0.4 * (axis.back() - axis.front());
   });
@@ -190,14 +190,14 @@ TEST_F(WrongShape, HalfABedIsUnmetAndNotLeftOut) {
 
 TEST_F(WrongShape, ABedBesideTheGapLosesEntryAndEnd) {
   open("jaw", 0.4);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     for (Vec3& point : region_of(plan, "implant bed").add.front().points) point.x() += 1.8 * kMm;
   });
   EXPECT_EQ(unmet(), (std::set<std::string>{"bed.entry", "bed.end", "bed.cleared", "bed.one-way"}));
 }
 
 // The slab between the two faces of the osteotomy, changed
-void move_osteotomy(Lesson& plan, const std::function<void(scenario::Shape&)>& change) {
+void move_osteotomy(CaseLesson& plan, const std::function<void(scenario::Shape&)>& change) {
   scenario::CaseRegion& slab = region_of(plan, "osteotomy");
   change(slab.add.front());
   change(slab.take.front());
@@ -205,7 +205,7 @@ void move_osteotomy(Lesson& plan, const std::function<void(scenario::Shape&)>& c
 
 TEST_F(WrongShape, AnOsteotomyTooFarInFrontLosesItsPlace) {
   open("jaw", 0.4);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     move_osteotomy(plan, [](scenario::Shape& face) { face.a.at.y() -= 2 * kMm; });
   });
   EXPECT_EQ(unmet(), (std::set<std::string>{"cut.place", "cut.cleared", "cut.front-spared"}));
@@ -213,7 +213,7 @@ TEST_F(WrongShape, AnOsteotomyTooFarInFrontLosesItsPlace) {
 
 TEST_F(WrongShape, AnOsteotomyThatLeansTooMuchLosesItsAngle) {
   open("jaw", 0.4);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     const double a = 16 * M_PI / 180;
     move_osteotomy(plan, [a](scenario::Shape& face) {
       // about the middle of the slab, which is as high as the middle of the bone there
@@ -233,7 +233,7 @@ TEST_F(WrongShape, AnOsteotomyThatLeansTooMuchLosesItsAngle) {
 
 TEST_F(WrongShape, ABridgeLosesTheDivisionAlone) {
   open("jaw", 0.4);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     scenario::Shape bridge;
     bridge.kind = scenario::ShapeKind::box;
     bridge.a.at = Vec3(-5.7, -30.5, -27) * kMm;  // at the lower border
@@ -245,7 +245,7 @@ TEST_F(WrongShape, ABridgeLosesTheDivisionAlone) {
 
 TEST_F(WrongShape, AnUnevenFaceLosesEvennessAlone) {
   open("jaw", 0.4);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     for (int n = 0; n < 4; ++n) {
       scenario::Shape dent;
       dent.kind = scenario::ShapeKind::ball;
@@ -262,16 +262,16 @@ TEST_F(WrongShape, AnUnevenFaceLosesEvennessAlone) {
 
 TEST_F(WrongShape, ADefectHalfFilledLosesItsShareAndOneFilledTooHighItsLevel) {
   open("jaw", 0.4);
-  cut([](Lesson& plan) { region_of(plan, "defect").take.front().a.at.x() -= 0.7 * kMm; });
+  cut([](CaseLesson& plan) { region_of(plan, "defect").take.front().a.at.x() -= 0.7 * kMm; });
   EXPECT_EQ(unmet(), (std::set<std::string>{"defect.filled"}));
   open("jaw", 0.4);
-  cut([](Lesson& plan) { region_of(plan, "defect").take.front().a.at.x() += 0.9 * kMm; });
+  cut([](CaseLesson& plan) { region_of(plan, "defect").take.front().a.at.x() += 0.9 * kMm; });
   EXPECT_EQ(unmet(), (std::set<std::string>{"defect.level"}));
 }
 
 TEST_F(WrongShape, AWideOpeningLosesTheToothAndTheOutline) {
   open("tooth", 0.1);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     region_of(plan, "way in").add.front().radius = 2.6 * kMm;
     region_of(plan, "deep caries").add.front().radius = 2.6 * kMm;
   });
@@ -280,7 +280,7 @@ TEST_F(WrongShape, AWideOpeningLosesTheToothAndTheOutline) {
 
 TEST_F(WrongShape, WhoClearsCariesDownToThePulpLosesItsRoof) {
   open("tooth", 0.1);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     scenario::CaseRegion& caries = region_of(plan, "deep caries");
     caries.take.erase(caries.take.begin());  // what keeps away from the pulp
     caries.add.front().points.back().z() -= 0.3 * kMm;
@@ -291,7 +291,7 @@ TEST_F(WrongShape, WhoClearsCariesDownToThePulpLosesItsRoof) {
 
 TEST_F(WrongShape, WhoLeavesNoDentineOverThePulpBreaksTheGate) {
   open("tooth", 0.1);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     scenario::CaseRegion& caries = region_of(plan, "deep caries");
     caries.take.erase(caries.take.begin());  // what keeps away from the pulp
     caries.add.front().points.back().z() -= 1.2 * kMm;
@@ -302,7 +302,7 @@ TEST_F(WrongShape, WhoLeavesNoDentineOverThePulpBreaksTheGate) {
 
 TEST_F(WrongShape, WhoLeavesCariesAtOneSideLosesBothItemsAboutIt) {
   open("tooth", 0.1);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     scenario::Shape side;
     side.kind = scenario::ShapeKind::half_space;
     side.a.at = Vec3(-0.5, 0, 0) * kMm;
@@ -315,7 +315,7 @@ TEST_F(WrongShape, WhoLeavesCariesAtOneSideLosesBothItemsAboutIt) {
 
 TEST_F(WrongShape, AFrontCavityTooDeepLosesItsDepthAlone) {
   open("tooth", 0.1);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     scenario::Shape& box = region_of(plan, "pit cavity").add.front();
     box.a.at.z() -= 0.35 * kMm;
     box.size.z() += 0.7 * kMm;
@@ -325,13 +325,13 @@ TEST_F(WrongShape, AFrontCavityTooDeepLosesItsDepthAlone) {
 
 TEST_F(WrongShape, AFrontCavityBesideThePitLosesPlaceAndCaries) {
   open("tooth", 0.1);
-  cut([](Lesson& plan) { region_of(plan, "pit cavity").add.front().a.at.x() += 0.9 * kMm; });
+  cut([](CaseLesson& plan) { region_of(plan, "pit cavity").add.front().a.at.x() += 0.9 * kMm; });
   EXPECT_EQ(unmet(), (std::set<std::string>{"pit.cleared", "pit.outline", "pit.spared"}));
 }
 
 TEST_F(WrongShape, AGrooveInTheFloorInFrontLosesFlatnessAlone) {
   open("tooth", 0.1);
-  cut([](Lesson& plan) {
+  cut([](CaseLesson& plan) {
     scenario::CaseRegion& pit = region_of(plan, "pit cavity");
     scenario::Shape dent;
     dent.kind = scenario::ShapeKind::box;

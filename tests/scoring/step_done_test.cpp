@@ -6,7 +6,7 @@
 #include <string>
 
 #include "burr/scenario/open_lesson.h"
-#include "metrics/bones.h"
+#include "metrics/metric_bones.h"
 
 namespace burr::scoring {
 namespace {

@@ -138,7 +138,7 @@ struct Bench {
     ticks(count);
   }
   bool obeyed(CommandKind kind, const edit::PieceMove& move,
-              const edit::PieceStore::Prepared& prepared) {
+              const edit::PieceStore::NewBricks& prepared) {
     bone->commit_ahead();
     servo.commit_ahead();
     EXPECT_TRUE(servo.lay_ready(*prepared.bricks));
@@ -175,7 +175,7 @@ struct Bench {
     ticks(700);
   }
   // Where it would be put down now.
-  Result<edit::PieceStore::Prepared> down(edit::PieceMove& move) {
+  Result<edit::PieceStore::NewBricks> down(edit::PieceMove& move) {
     move = put_at(piece.number, piece.centre, servo.piece().pose());
     move.writes = servo.writes_done();
     auto prepared = store.prepare(*bone, move);

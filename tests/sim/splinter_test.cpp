@@ -90,12 +90,12 @@ std::unique_ptr<Session> session_of(std::unique_ptr<volume::Bone> bone, bool cut
   return std::move(*made);
 }
 
-struct Ready {
+struct ReadySplinter {
   edit::PieceMove move;
   std::shared_ptr<const edit::MovedBricks> bricks;
 };
-Ready prepared(Session& session, const Vec3& at) {
-  Ready ready;
+ReadySplinter prepared(Session& session, const Vec3& at) {
+  ReadySplinter ready;
   const math::Ijk seed = session.bone().grid().grid_from_world(at).array().round().cast<int>();
   for (std::size_t axis = 0; axis < 3; ++axis) ready.move.seed[axis] = seed[static_cast<int>(axis)];
   ready.move.writes = session.servo().writes_done();
@@ -114,7 +114,7 @@ TEST(Splinter, IsTakenWithItsVolumeAndComesBackByUndo) {
   const std::uint64_t at_start = fresh->content_hash();
   const std::int64_t before = units(*fresh);
   session->run(0.2, quiet);
-  const Ready ready = prepared(*session, kSplinter);
+  const ReadySplinter ready = prepared(*session, kSplinter);
   ASSERT_NE(ready.bricks, nullptr);
   EXPECT_NEAR(static_cast<double>(ready.bricks->lost) * kUnit, 8 * std::pow(kHalf, 3),
               0.15 * 8 * std::pow(kHalf, 3));
@@ -150,7 +150,7 @@ TEST(Splinter, IsRefusedWhereTheBoneIsAnother) {
   const auto session = session_of(bone_with_stub(true), false);
   session->run(0.2, quiet);
   const std::uint64_t at_start = session->bone().content_hash();
-  const Ready ready = prepared(*session, kSplinter);
+  const ReadySplinter ready = prepared(*session, kSplinter);
   ASSERT_NE(ready.bricks, nullptr);
   const auto refused = [&](const edit::PieceMove& move) {
     EXPECT_TRUE(session->take_splinter(move, false, ready.bricks));

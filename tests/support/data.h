@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::test {
 

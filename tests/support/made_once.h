@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::test {
 

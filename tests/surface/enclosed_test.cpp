@@ -8,7 +8,7 @@
 
 #include "burr/surface/mesher.h"
 #include "burr/surface/shells.h"
-#include "surface/bones.h"
+#include "surface/surface_bones.h"
 
 namespace burr::surface {
 namespace {

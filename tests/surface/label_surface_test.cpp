@@ -8,7 +8,7 @@
 #include "burr/phantom/build.h"
 #include "burr/phantom/phantoms.h"
 #include "burr/surface/label_surface.h"
-#include "surface/bones.h"
+#include "surface/surface_bones.h"
 
 namespace burr::surface {
 namespace {

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "burr/surface/cases.h"
-#include "surface/bones.h"
+#include "surface/surface_bones.h"
 
 namespace burr::surface {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "burr/surface/mesher.h"
 #include "burr/volume/volume_of.h"
-#include "surface/bones.h"
+#include "surface/surface_bones.h"
 
 namespace burr::surface {
 namespace {

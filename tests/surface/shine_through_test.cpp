@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "burr/surface/mesher.h"
-#include "surface/bones.h"
+#include "surface/surface_bones.h"
 
 namespace burr::surface {
 namespace {

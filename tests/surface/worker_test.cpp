@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-#include "surface/bones.h"
+#include "surface/surface_bones.h"
 
 namespace burr::surface {
 namespace {

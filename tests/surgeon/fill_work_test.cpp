@@ -23,8 +23,8 @@ using math::Vec3;
 
 constexpr double kVoxelMm = 0.3;
 
-scenario::Lesson pad_lesson() {
-  scenario::Lesson lesson = block_lesson();
+scenario::CaseLesson pad_lesson() {
+  scenario::CaseLesson lesson = block_lesson();
   scenario::CaseRegion& region = lesson.regions.front();
   scenario::Shape& box = region.add.front();
   box.a.at = Vec3(0, -2, 0.2) * kMm;  // 1 mm high, on the face at z = 0
@@ -45,7 +45,7 @@ struct Filled {
 // slack: material so near outside is not beside [m]
 Filled operate(const Skill& skill, double seconds, double slack) {
   NoProgress quiet;
-  const scenario::Lesson lesson = pad_lesson();
+  const scenario::CaseLesson lesson = pad_lesson();
   auto bone = block_with_vein(kVoxelMm);
   const auto before = block_with_vein(kVoxelMm);
   tool::Burr burr;
@@ -122,7 +122,7 @@ TEST(FillWork, WhoStopsEarlyLeavesMoreEmpty) {
 
 struct Planned {
   std::unique_ptr<volume::Bone> bone = block_with_vein(0.5);
-  scenario::Lesson lesson = pad_lesson();
+  scenario::CaseLesson lesson = pad_lesson();
   Believed believed;
   Spare spare;
   Filling filling;

@@ -15,7 +15,7 @@ namespace {
 
 using math::Vec3;
 
-Believed believed(const volume::Bone& bone, const scenario::Lesson& lesson, double rms,
+Believed believed(const volume::Bone& bone, const scenario::CaseLesson& lesson, double rms,
                   std::uint64_t seed) {
   NoProgress quiet;
   auto made = Believed::make(bone, lesson, rms, seed, quiet);
@@ -25,7 +25,7 @@ Believed believed(const volume::Bone& bone, const scenario::Lesson& lesson, doub
 
 TEST(Believed, WithoutErrorDistancesAreTrue) {
   const auto bone = block_with_vein(0.25);
-  const scenario::Lesson lesson = block_lesson();
+  const scenario::CaseLesson lesson = block_lesson();
   const Believed seen = believed(*bone, lesson, 0, 1);
   EXPECT_EQ(seen.error_of("vein"), Vec3(Vec3::Zero()));
   for (const Vec3& p : {Vec3(0, 0, -1 * kMm), Vec3(2 * kMm, 3 * kMm, -4 * kMm)})
@@ -35,7 +35,7 @@ TEST(Believed, WithoutErrorDistancesAreTrue) {
 
 TEST(Believed, AStructureIsMovedAsAWholeByItsError) {
   const auto bone = block_with_vein(0.25);
-  const scenario::Lesson lesson = block_lesson();
+  const scenario::CaseLesson lesson = block_lesson();
   const Believed truth = believed(*bone, lesson, 0, 1);
   for (const std::uint64_t seed : {1, 2, 3}) {
     SCOPED_TRACE(seed);
@@ -50,7 +50,7 @@ TEST(Believed, AStructureIsMovedAsAWholeByItsError) {
 
 TEST(Believed, ErrorsHaveTheRmsPerAxis) {
   const auto bone = block_with_vein(0.5);
-  const scenario::Lesson lesson = block_lesson();
+  const scenario::CaseLesson lesson = block_lesson();
   double square = 0;
   constexpr int kSeeds = 200;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
@@ -60,7 +60,7 @@ TEST(Believed, ErrorsHaveTheRmsPerAxis) {
 
 TEST(Believed, APlanIsMovedByItsErrorAndItsCurvesAreTilted) {
   const auto bone = block_with_vein(0.5);
-  scenario::Lesson lesson = block_lesson();
+  scenario::CaseLesson lesson = block_lesson();
   scenario::CaseRegion bore;
   bore.name = "bore";
   scenario::Shape tube;
@@ -90,7 +90,7 @@ TEST(Believed, APlanIsMovedByItsErrorAndItsCurvesAreTilted) {
 // How many of 30 surgeons believe that the middle of the vein is free, with its margin.
 int who_miss_the_vein(double perception) {
   const auto bone = block_with_vein(0.5);
-  const scenario::Lesson lesson = block_lesson();
+  const scenario::CaseLesson lesson = block_lesson();
   int missed = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const Believed seen = believed(*bone, lesson, perception, seed);
@@ -107,7 +107,7 @@ TEST(Believed, ALargeErrorOfPerceptionMissesWhatIsToBeSpared) {
 // A step may be done from another side than the rest of the case.
 TEST(Goal, GoesInFromWhereTheStepSays) {
   const auto bone = block_with_vein(0.25);
-  scenario::Lesson lesson = block_lesson();
+  scenario::CaseLesson lesson = block_lesson();
   scenario::Step step;
   EXPECT_EQ(approach_of(lesson, step), approach_of(lesson));
   step.approach = {Vec3::UnitX()};
@@ -128,7 +128,7 @@ TEST(Goal, GoesInFromWhereTheStepSays) {
 
 TEST(Goal, ACorridorThatReachesTheSurfaceHasStraightWalls) {
   const auto bone = block_with_vein(0.25);
-  scenario::Lesson lesson = block_lesson();
+  scenario::CaseLesson lesson = block_lesson();
   scenario::Shape& box = lesson.regions.front().add.front();
   const Believed seen = believed(*bone, lesson, 0, 1);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
@@ -149,7 +149,7 @@ struct GrooveWork {
   GrooveWork(double half_length, double radius, const Skill& skill, double case_diameter,
              std::optional<std::pair<double, double>> tool = {})
       : lesson([&] {
-          scenario::Lesson made = block_lesson();
+          scenario::CaseLesson made = block_lesson();
           scenario::Shape groove;
           groove.kind = scenario::ShapeKind::capsule;
           groove.a.at = Vec3(-half_length, 0, 0);
@@ -165,7 +165,7 @@ struct GrooveWork {
         work(*bone, lesson.steps.front(), lesson, goal, goal, spare, skill, case_diameter) {}
 
   decltype(block_with_vein(0.25)) bone = block_with_vein(0.25);
-  scenario::Lesson lesson;
+  scenario::CaseLesson lesson;
   Believed seen;
   Spare spare;
   FieldGrid goal;
@@ -238,7 +238,7 @@ TEST(StepWork, ADirectionWithoutRoomIsTriedAgain) {
 struct UnderAStone {
   UnderAStone(const Vec3& region, const Vec3& size, const Vec3& aslant = Vec3(0.8, 0, 0.6))
       : lesson([&] {
-          scenario::Lesson made = block_lesson();
+          scenario::CaseLesson made = block_lesson();
           made.approach = {Vec3::UnitZ(), aslant};
           made.regions.front().add.front().a.at = region;
           made.regions.front().add.front().size = size;
@@ -280,7 +280,7 @@ struct UnderAStone {
   }
 
   decltype(floor_and_stone()) bone = floor_and_stone();
-  scenario::Lesson lesson;
+  scenario::CaseLesson lesson;
   Believed seen;
   Spare spare;
   FieldGrid goal;
@@ -351,7 +351,7 @@ TEST(StepWork, AGrooveIsCutAlong) {
 
 TEST(Goal, IsTheDepthInTheRegionAndTheRoomToWhatIsSpared) {
   const auto bone = block_with_vein(0.25);
-  const scenario::Lesson lesson = block_lesson();
+  const scenario::CaseLesson lesson = block_lesson();
   const Believed seen = believed(*bone, lesson, 0, 1);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
   const FieldGrid goal = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);
@@ -369,7 +369,7 @@ TEST(Goal, IsTheDepthInTheRegionAndTheRoomToWhatIsSpared) {
 
 TEST(Goal, LessMarginReachesNearerByAsMuch) {
   const auto bone = block_with_vein(0.25);
-  const scenario::Lesson lesson = block_lesson();
+  const scenario::CaseLesson lesson = block_lesson();
   const Believed seen = believed(*bone, lesson, 0, 1);
   const Spare plan = spare_of(bone->grid(), lesson, seen, 0);
   const Spare less = spare_of(bone->grid(), lesson, seen, 0.5 * kMm);
@@ -380,7 +380,7 @@ TEST(Goal, LessMarginReachesNearerByAsMuch) {
 
 TEST(Goal, WhatLiesBehindASparedStructureIsNoGoal) {
   const auto bone = block_with_vein(0.25);
-  scenario::Lesson lesson = block_lesson();
+  scenario::CaseLesson lesson = block_lesson();
   lesson.regions.front().add.front().size = Vec3(10, 8, 16) * kMm;  // down below the vein
   const Believed seen = believed(*bone, lesson, 0, 1);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
@@ -392,7 +392,7 @@ TEST(Goal, WhatLiesBehindASparedStructureIsNoGoal) {
 
 TEST(Goal, ChangesByAtMostOneMetrePerMetre) {
   const auto bone = block_with_vein(0.5);
-  const scenario::Lesson lesson = block_lesson();
+  const scenario::CaseLesson lesson = block_lesson();
   const Believed seen = believed(*bone, lesson, 0.5 * kMm, 4);
   const Spare spare = spare_of(bone->grid(), lesson, seen, 0);
   const FieldGrid goal = goal_of(lesson.regions.front(), approach_of(lesson), seen, spare);

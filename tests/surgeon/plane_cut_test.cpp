@@ -18,8 +18,8 @@ using math::Vec3;
 constexpr double kMm = 1e-3;
 
 // A slab 2 mm wide across x, its middle at x = 3 mm, cut from above.
-scenario::Lesson slab() {
-  scenario::Lesson lesson;
+scenario::CaseLesson slab() {
+  scenario::CaseLesson lesson;
   lesson.approach = {Vec3::UnitZ()};
   scenario::CaseRegion& region = lesson.regions.emplace_back();
   region.name = "slab";
@@ -44,7 +44,7 @@ TEST(PlaneCut, TheMiddleOfASlabIsThePlane) {
 }
 
 TEST(PlaneCut, WhatHasNoPlaneIsRefusedWithAReason) {
-  scenario::Lesson lesson = slab();
+  scenario::CaseLesson lesson = slab();
   const auto why = [&lesson](const char* step) {
     const auto plane = plane_of(lesson, step);
     return plane.ok() ? std::string() : plane.error().text;

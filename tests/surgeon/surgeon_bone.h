@@ -43,7 +43,7 @@ inline std::unique_ptr<volume::Bone> block_with_vein(double voxel_mm) {
   return std::move(*bone);
 }
 
-inline scenario::Lesson block_lesson() {
+inline scenario::CaseLesson block_lesson() {
   auto read = scenario::parse_lesson(R"(format = 2
 title = "A trough over a vein"
 phantom = "block"

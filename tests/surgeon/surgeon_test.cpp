@@ -32,7 +32,7 @@ struct Done {
 
 Done operate(const Skill& skill, std::uint64_t seed, double seconds) {
   NoProgress quiet;
-  const scenario::Lesson lesson = block_lesson();
+  const scenario::CaseLesson lesson = block_lesson();
   auto bone = block_with_vein(kVoxelMm);
   const auto before = block_with_vein(kVoxelMm);
   tool::Burr burr;
@@ -148,7 +148,7 @@ TEST(Surgeon, IsCalledBetweenTicksButNeverInRealTime) {
 TEST(Surgeon, RefusesACaseWithNothingToDo) {
   NoProgress quiet;
   const auto bone = block_with_vein(0.5);
-  scenario::Lesson lesson = block_lesson();
+  scenario::CaseLesson lesson = block_lesson();
   lesson.steps.clear();
   const auto made = Surgeon::make(*bone, lesson, {}, Vec3::Zero(), {}, 1, 1000, quiet);
   ASSERT_FALSE(made.ok());

@@ -1,4 +1,4 @@
-#include "burr/thermal/worker.h"
+#include "burr/thermal/heat_worker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// A law of one's own in a session: what it may do, what it may not, and that a recording replays with it.
+// A custom law in a session: what it may do, what it may not, and that a recording replays with it.
 #include "burr/tick/own_law.h"
 
 #include <gtest/gtest.h>

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "burr/scenario/built_in.h"
+#include "burr/scenario/built_in_cases.h"
 #include "burr/scenario/case.h"
 #include "burr/scenario/open_lesson.h"
 #include "burr/workshop/label_check.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {
@@ -23,7 +23,7 @@ class CaseTitles : public testing::Test {
 };
 
 TEST_F(CaseTitles, HoldForStructuresAndForTissuesThatBurrDoesNotKnow) {
-  scenario::Lesson lesson;
+  scenario::CaseLesson lesson;
   scenario::Structure& nerve = lesson.structures.emplace_back();
   nerve.name = "n7";
   nerve.names = {"Label_12", "facial nerve"};
@@ -66,7 +66,7 @@ TEST_F(CaseTitles, OfPlacesThatAStepLightsAreThereInEveryLanguage) {
 }
 
 TEST_F(CaseTitles, HoldForPlacesBeforeThoseOfStructures) {
-  scenario::Lesson lesson;
+  scenario::CaseLesson lesson;
   scenario::Landmark& line = lesson.landmarks.emplace_back();
   line.name = "temporal line";
   line.title.by_language = {{"sv", "linea temporalis"}};

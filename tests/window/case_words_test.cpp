@@ -11,7 +11,7 @@
 #include "burr/record/recorder.h"
 #include "burr/scenario/case.h"
 #include "commands/case_new.h"
-#include "commands/session_words.h"
+#include "commands/session_lines.h"
 #include "record/made_up.h"
 #include "shared/counted.h"
 

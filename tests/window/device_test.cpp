@@ -19,9 +19,9 @@
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/suction_hand.h"
 #include "device/fake/fake_hd.h"
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 #include "shared/work.h"
-#include "support/places.h"
+#include "support/test_places.h"
 #include "window/mill/side_panel.h"
 #include "window/stick.h"
 #include "window/two_blocks.h"
@@ -52,7 +52,7 @@ class DeviceWindow : public Window {
     ::unsetenv("XDG_CONFIG_HOME");
   }
 
-  static Result<Ready> with_touch(const std::string& suction = {}) {
+  static Result<WindowSession> with_touch(const std::string& suction = {}) {
     WorkOptions options;
     options.suction = suction;
     options.volume.source = "block";
@@ -457,7 +457,7 @@ TEST_F(DeviceWindow, PulledOutItIsSaidAndTheLastTicksAreKept) {
 }
 
 TEST_F(DeviceWindow, ItsSettingsAreChangedThereAndKeptInItsBook) {
-  std::optional<Ready> ready = std::move(*with_touch());
+  std::optional<WindowSession> ready = std::move(*with_touch());
   const std::string id = ready->hands.id;
   EXPECT_EQ(ready->hands.max_force, 3.3);
   const auto none = [] {};
@@ -509,7 +509,7 @@ class CarriedPiece : public DeviceWindow {
           static_cast<int>((kSideTop + 48 + 16) * u));
   }
   // Where the corners of the ghost are.
-  static std::vector<Vec3> places(const Ready& ready, std::size_t softs) {
+  static std::vector<Vec3> places(const WindowSession& ready, std::size_t softs) {
     std::vector<Vec3> out;
     if (ready.scene.soft.size() <= softs) return out;
     for (const render::SkinVertex& vertex : ready.scene.soft.back().mesh->vertices)
@@ -529,7 +529,7 @@ class CarriedPiece : public DeviceWindow {
     return found;
   }
 
-  void carries(Ready& ready) {
+  void carries(WindowSession& ready) {
     const std::size_t softs = ready.scene.soft.size();
     const render::Scene& scene = ready.scene;
     std::vector<Vec3> start;

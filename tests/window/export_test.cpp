@@ -11,7 +11,7 @@
 #include <string>
 
 #include "burr/io/export_part.h"
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 #include "window/mill/window.h"
 #include "window/user.h"
 
@@ -41,7 +41,7 @@ class Export : public Window {
   static void into_path() { click(kX + 300, kY + 174); }
   static void write() { click(kX + 612, kY + 288); }
   // writes into folder_ by the path that stands there when the page opens
-  void mill_in(Ready& ready, std::vector<Script::Step> steps) {
+  void mill_in(WindowSession& ready, std::vector<Script::Step> steps) {
     Script script(std::move(steps), desk_->status_text);
     desk_->after_frame = [&script] { script.look(); };
     const auto left = mill(*desk_, *ready.session, ready.hands, *ready.worker, ready.scene,

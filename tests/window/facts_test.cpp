@@ -16,7 +16,7 @@
 #include "burr/record/player.h"
 #include "burr/render/bone_scene.h"
 #include "support/folder.h"
-#include "support/places.h"
+#include "support/test_places.h"
 #include "window/replay/difference.h"
 
 namespace burr::app {
@@ -62,8 +62,8 @@ class SlabFacts : public testing::Test {
     recipe().labels = table.string();
   }
   static void TearDownTestSuite() { own().reset(); }
-  static scenario::Recipe& recipe() {
-    static scenario::Recipe recipe;
+  static scenario::BoneRecipe& recipe() {
+    static scenario::BoneRecipe recipe;
     return recipe;
   }
 };

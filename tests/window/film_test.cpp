@@ -15,7 +15,7 @@
 #include <string>
 
 #include "support/folder.h"
-#include "support/places.h"
+#include "support/test_places.h"
 #include "window/parts/film_job.h"
 
 namespace burr::app {

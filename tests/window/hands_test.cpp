@@ -11,7 +11,7 @@
 #include <limits>
 #include <string>
 
-#include "support/places.h"
+#include "support/test_places.h"
 #include "window/hands/gamepad.h"
 #include "window/hands/pedals.h"
 #include "window/hands/spacemouse.h"

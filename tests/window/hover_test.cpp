@@ -19,7 +19,7 @@
 #include "burr/sim/session.h"
 #include "burr/volume/sample.h"
 #include "burr/workshop/live_surface.h"
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 #include "shared/work.h"
 
 namespace burr::app {
@@ -29,7 +29,7 @@ using math::Vec3;
 constexpr int kWidth = 1280, kHeight = 720, kTicksPerPicture = 16;
 
 struct Bench {
-  Ready ready;
+  WindowSession ready;
   mouse::MouseAim aim;
   tick::TickRow row;
 
@@ -41,7 +41,7 @@ struct Bench {
     if (const Status taken = take_case(options); !taken) return std::nullopt;
     auto work = open_work(options, quiet);
     if (!work) return std::nullopt;
-    auto ready = make_ready(options, std::move(*work), quiet);
+    auto ready = make_window_session(options, std::move(*work), quiet);
     if (!ready) return std::nullopt;
     const double voxel = ready->session->bone().grid().voxel;
     return Bench{std::move(*ready), mouse::MouseAim(voxel), {}};

@@ -177,7 +177,7 @@ TEST_F(MemoryWindow, OfASessionIsAboutWhatWasSaid) {
                  static_cast<std::streamsize>(2 * slice.size()));
     }
   }
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   volume.source = path.string();
   NoProgress quiet;
   SessionMemory said;

@@ -14,7 +14,7 @@
 #include "burr/workshop/recording.h"
 #include "io/dicom_writer.h"
 #include "window/import/series_page.h"
-#include "window/parts/sessions.h"
+#include "window/parts/kept_sessions.h"
 #include "window/shell/pages.h"
 #include "window/user.h"
 
@@ -31,7 +31,7 @@ void click_on(const Part& part) {
 constexpr float kLabelButtons = 3 * 53 + 64;  // from the first button of a label to the right end
 
 // The bone that the command line makes of the same words.
-std::uint64_t hash_of(const scenario::Recipe& options) {
+std::uint64_t hash_of(const scenario::BoneRecipe& options) {
   NoProgress quiet;
   auto made = workshop::open_bone(options, quiet);
   EXPECT_TRUE(made) << made.error().text;
@@ -105,7 +105,7 @@ TEST_F(ImportWindow, MakesTheBoneWithTheLevelAndRegionSetByMouse) {
   // -1000 to 1500 HU lie along the plot
   EXPECT_NEAR(*info.recipe.iso, -1000 + 0.75 * 2500, 12);
   EXPECT_TRUE((*info.recipe.region == scenario::Region{{0, 17}, {0, 23}, {0, 23}}));
-  scenario::Recipe typed;
+  scenario::BoneRecipe typed;
   typed.source = file.string();
   const std::uint64_t by_itself = hash_of(typed);
   typed.iso = info.recipe.iso;
@@ -122,7 +122,7 @@ TEST_F(ImportWindow, OfADefaultScanChangesNothing) {
      then_mills());
   const record::VolumeInfo info = begun();
   EXPECT_FALSE(info.recipe.iso || info.recipe.region);
-  scenario::Recipe typed;
+  scenario::BoneRecipe typed;
   typed.source = file.string();
   EXPECT_EQ(info.content_hash, hash_of(typed));
 }
@@ -180,7 +180,7 @@ TEST_F(ImportWindow, MakesLabelsWhatTheyAreClickedToBe) {
   const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
   ASSERT_EQ(kept.size(), 1U) << "nothing was cut: the test shows nothing";
   const record::VolumeInfo info = begun();
-  scenario::Recipe typed;
+  scenario::BoneRecipe typed;
   typed.source = file.string();
   const std::uint64_t by_itself = hash_of(typed);
   const fs::path table = folder_ / "typed.toml";
@@ -242,9 +242,9 @@ class ImportDoubts : public ImportWindow {
     return path;
   }
   // The recipe after somebody at the page did this, and pressed Enter or Esc.
-  scenario::Recipe after(const fs::path& file, std::vector<Script::Step> steps) {
+  scenario::BoneRecipe after(const fs::path& file, std::vector<Script::Step> steps) {
     NoProgress quiet;
-    scenario::Recipe recipe;
+    scenario::BoneRecipe recipe;
     recipe.source = file.string();
     auto opened = open_scan(recipe, quiet);
     EXPECT_TRUE(opened) << opened.error().text;
@@ -284,10 +284,10 @@ class ImportDoubts : public ImportWindow {
 
 TEST_F(ImportDoubts, OfAScanThatIsRightThereAreNone) {
   int seen = -1;
-  const scenario::Recipe recipe = after(parts(false), {{"a count", looks(30), [&] {
-                                                          seen = warned();
-                                                          press(SDLK_RETURN);
-                                                        }}});
+  const scenario::BoneRecipe recipe = after(parts(false), {{"a count", looks(30), [&] {
+                                                              seen = warned();
+                                                              press(SDLK_RETURN);
+                                                            }}});
   EXPECT_LT(seen, 50);
   EXPECT_TRUE(recipe.keep.all());
 }
@@ -298,19 +298,19 @@ TEST_F(ImportDoubts, OfSeveralPartsTheButtonsAreTheOptions) {
                     largest = word(Word::import_keep_largest),
                     keep_all = word(Word::import_keep_all);
   int before = -1, decided = -1;
-  scenario::Recipe recipe = after(file, {{"a count", looks(30),
-                                          [&] {
-                                            before = warned();
-                                            press_button(0, 1, {pick, drop, largest});
-                                          }},
-                                         {"the choice", looks(5), [&] {
-                                            decided = warned();
-                                            press(SDLK_RETURN);
-                                          }}});
+  scenario::BoneRecipe recipe = after(file, {{"a count", looks(30),
+                                              [&] {
+                                                before = warned();
+                                                press_button(0, 1, {pick, drop, largest});
+                                              }},
+                                             {"the choice", looks(5), [&] {
+                                                decided = warned();
+                                                press(SDLK_RETURN);
+                                              }}});
   EXPECT_GT(before, 10'000);
   EXPECT_LT(decided, 50) << "what is decided is no doubt";
   EXPECT_EQ(recipe.keep.largest, 1);
-  scenario::Recipe typed;
+  scenario::BoneRecipe typed;
   typed.source = file.string();
   const std::uint64_t by_itself = hash_of(typed);
   typed.keep.largest = 1;
@@ -347,7 +347,7 @@ TEST_F(ImportDoubts, AClickKeepsThePartThatItHits) {
   };
   std::string told;
   const std::string pick = word(Word::import_pick);
-  const scenario::Recipe recipe =
+  const scenario::BoneRecipe recipe =
       after(parts(true), {{"a count", looks(30), [&] { press_button(0, 1, {pick}); }},
                           {"picking", looks(5), [&] { click_voxel(12, 1.2); }},
                           {"no bone there", looks(5),
@@ -378,7 +378,7 @@ TEST_F(ImportDoubts, OfLabelsWithoutNamesAreAskedUntilTheyAreAnswered) {
       then();
     };
   };
-  scenario::Recipe recipe =
+  scenario::BoneRecipe recipe =
       after(file, {{"a count", looks(30),
                     step(before, [&] { press_button(0, 1, {word(Word::import_labels_right)}); })},
                    {"the choice", looks(5), step(decided, [] { press(SDLK_RETURN); })}});
@@ -463,7 +463,7 @@ TEST_F(ImportWindow, ReadsAnotherSeriesThatIsChosen) {
   BURR_NEEDS_DATA("skull_phantom");
   const fs::path folder = test::data_dir() / "skull_phantom";
   NoProgress quiet;
-  scenario::Recipe typed;
+  scenario::BoneRecipe typed;
   typed.source = folder.string();
   const auto opened = open_scan(typed, quiet);
   ASSERT_TRUE(opened) << opened.error().text;

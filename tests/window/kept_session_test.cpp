@@ -7,29 +7,29 @@
 #include <string>
 
 #include "burr/base/progress.h"
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 #include "shared/work.h"
 #include "support/folder.h"
-#include "window/parts/sessions.h"
+#include "window/parts/kept_sessions.h"
 
 namespace burr::app {
 namespace {
 
 namespace fs = std::filesystem;
-using scenario::Recipe;
+using scenario::BoneRecipe;
 using scenario::Region;
 
 class Kept : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(state_ / "sessions"); }
-  static Result<Ready> ready_ball(WorkOptions& ball) {
+  static Result<WindowSession> ready_ball(WorkOptions& ball) {
     ball.volume.source = "phantom:ball";
     ball.volume.voxel_mm = 1;
     NoProgress quiet;
     if (const Status taken = take_case(ball); !taken) return taken.error();
     auto work = open_work(ball, quiet);
     if (!work) return work.error();
-    return make_ready(ball, std::move(*work), quiet);
+    return make_window_session(ball, std::move(*work), quiet);
   }
   const test::Folder folder_;
   const fs::path state_ = folder_.path();
@@ -46,7 +46,7 @@ TEST_F(Kept, RecipesComeBackToTheBit) {
   ASSERT_TRUE(ready) << ready.error().text;
   for (int n = 0; n < 12; ++n) {
     WorkOptions options = ball;
-    Recipe& recipe = options.volume;
+    BoneRecipe& recipe = options.volume;
     recipe = {};
     recipe.source = "/nowhere/å \"b\".nrrd";
     if (coin()) recipe.series = "1.2.840.113619";
@@ -126,7 +126,7 @@ TEST_F(Kept, AnOlderAccountIsStillRead) {
          "rpm = 30000\nseconds = 1.500\nremoved_mm3 = 2.250\nclean = true\nkeep = true\n";
   const std::vector<KeptSession> all = kept_sessions(state_);
   ASSERT_EQ(all.size(), 1U);
-  Recipe wanted;
+  BoneRecipe wanted;
   wanted.source = "/nowhere/a.nrrd";
   wanted.series = "#2";
   wanted.spacing_mm = {0.3, 0.3, 0.6};

@@ -14,7 +14,7 @@
 #include "burr/render/bone_scene.h"
 #include "burr/render/unseen.h"
 #include "burr/volume/distance_to.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "user.h"
 #include "window/mill/orientation_cube.h"
 #include "window/mill/pinned_labels.h"

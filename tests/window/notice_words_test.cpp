@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "user.h"
 
 namespace burr::app {

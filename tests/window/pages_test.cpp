@@ -11,10 +11,10 @@
 #include "burr/rt/changed_bits.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
-#include "support/places.h"
+#include "support/test_places.h"
 #include "window/mill/window.h"
+#include "window/parts/kept_sessions.h"
 #include "window/parts/see_through.h"
-#include "window/parts/sessions.h"
 #include "window/user.h"
 
 namespace burr::app {
@@ -362,7 +362,7 @@ TEST_F(Window, TakesADroppedScanMillsItComesBackAndGoesOnWhereItWas) {
   auto first = record::Player::open(kept[1].file.string());
   auto second = record::Player::open(kept[0].file.string());
   ASSERT_TRUE(first && second);
-  scenario::Recipe given;
+  scenario::BoneRecipe given;
   given.source = file.string();
   auto bone = workshop::bone_of(**first, given, quiet);
   ASSERT_TRUE(bone) << bone.error().text;

@@ -38,7 +38,7 @@ class PiecesWindow : public Window {
 TEST_F(PiecesWindow, AFreePieceIsTakenMovedPutDownAndBroughtBack) {
   auto made = ready_two_blocks();
   ASSERT_TRUE(made) << made.error().text;
-  Ready& ready = *made;
+  WindowSession& ready = *made;
   const std::uint64_t at_start = ready.session->bone().content_hash();
   const std::size_t softs = ready.scene.soft.size();
   const auto told = [this](Word says) {
@@ -75,7 +75,7 @@ TEST_F(PiecesWindow, AFreePieceIsTakenMovedPutDownAndBroughtBack) {
 TEST_F(PiecesWindow, WhatIsPutDownLiesWhereItWasShown) {
   auto made = ready_two_blocks();
   ASSERT_TRUE(made) << made.error().text;
-  Ready& ready = *made;
+  WindowSession& ready = *made;
   const std::size_t softs = ready.scene.soft.size();
   const auto boxed = [](const volume::Bone& bone) {
     const volume::PieceFinder finder(std::as_const(bone));
@@ -149,7 +149,7 @@ class LiftedPiece : public testing::Test {
     return session().bone().content_hash();
   }
 
-  std::optional<Ready> ready_;
+  std::optional<WindowSession> ready_;
   std::optional<PieceMode> mode_;
   tick::TickRow row_;
   std::string told_;

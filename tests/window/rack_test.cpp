@@ -15,8 +15,8 @@
 #include "burr/render/tool_mesh.h"
 #include "burr/scenario/rack.h"
 #include "burr/sim/session.h"
-#include "shared/make_ready.h"
 #include "shared/tool_options.h"
+#include "shared/window_session.h"
 #include "shared/work.h"
 #include "support/folder.h"
 #include "user.h"
@@ -97,7 +97,7 @@ TEST(Grip, ReachesAsFarAsTheSurfaceOfItsCuttingParts) {
 
 // A block and the mouse's hand, without a window: pictures of 16 ticks.
 struct Bench {
-  Ready ready;
+  WindowSession ready;
   mouse::Grip grip;
   std::unique_ptr<mouse::MouseAim> aim;
   tick::TickRow row;
@@ -111,7 +111,7 @@ struct Bench {
     EXPECT_TRUE(take_case(options));
     auto work = open_work(options, quiet);
     EXPECT_TRUE(work);
-    auto made = make_ready(options, std::move(*work), quiet);
+    auto made = make_window_session(options, std::move(*work), quiet);
     EXPECT_TRUE(made) << (made ? "" : made.error().text);
     ready = std::move(*made);
     aim = std::make_unique<mouse::MouseAim>(ready.session->bone().grid().voxel);
@@ -189,7 +189,7 @@ TEST(RackOfASession, HoldsTheToolsThatAreThickEnoughForTheVoxels) {
 
 class RackWindow : public Window {
  protected:
-  [[nodiscard]] int number(Ready& ready) const {
+  [[nodiscard]] int number(WindowSession& ready) const {
     tick::TickRow row;
     if (ready.session->view(row)) last_ = row;
     return last_.tool.number;
@@ -200,7 +200,7 @@ class RackWindow : public Window {
     click(static_cast<int>((kSideLeft + 10 + 113 * static_cast<float>(n % 3) + 55) * u),
           static_cast<int>((kSideTop + 44 + 112 * static_cast<float>(n / 3) + 50) * u));
   }
-  void mill_with_rack(Ready& ready, std::vector<Script::Step> steps) {
+  void mill_with_rack(WindowSession& ready, std::vector<Script::Step> steps) {
     Script script(std::move(steps), desk_->status_text);
     desk_->after_frame = [&script] { script.look(); };
     WindowOptions options;

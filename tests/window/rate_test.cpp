@@ -17,7 +17,7 @@
 #include "burr/school/store.h"
 #include "school/products.h"
 #include "support/made_once.h"
-#include "support/places.h"
+#include "support/test_places.h"
 #include "user.h"
 
 namespace burr::app {

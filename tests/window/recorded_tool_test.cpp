@@ -22,7 +22,7 @@
 #include "sim/commanded.h"
 #include "sim/lifted.h"
 #include "support/folder.h"
-#include "support/places.h"
+#include "support/test_places.h"
 #include "window/replay/playback.h"
 #include "window/replay/replay_page.h"
 #include "window/replay/replay_view.h"

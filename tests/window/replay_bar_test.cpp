@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "burr/record/player.h"
-#include "support/places.h"
+#include "support/test_places.h"
 #include "user.h"
+#include "window/parts/kept_sessions.h"
 #include "window/parts/measuring.h"
-#include "window/parts/sessions.h"
 #include "window/replay/replay_bar.h"
 #include "window/replay/replay_page.h"
 #include "window/shell/pages.h"

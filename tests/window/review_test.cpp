@@ -24,10 +24,10 @@
 #include "burr/school/pending.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
-#include "support/places.h"
+#include "support/test_places.h"
 #include "user.h"
 #include "window/mill/mill_keys.h"
-#include "window/parts/sessions.h"
+#include "window/parts/kept_sessions.h"
 #include "window/review/enter_session.h"
 #include "window/review/review_page.h"
 #include "window/review/self_marks_page.h"
@@ -263,7 +263,7 @@ TEST_F(ReviewWindow, TheSessionOfALearnerComesIntoTheStoreByItself) {
             1);
 }
 
-// A scan of one's own has no steps: what guides through them ends with the case.
+// A scan without a case has no steps: what guides through them ends with the case.
 TEST_F(ReviewWindow, AScanOfOnesOwnIsNotInTheModeOfTheCaseBefore) {
   const auto mode_of = [&](const fs::path& file, record::Mode mode) {
     record::Identity identity;

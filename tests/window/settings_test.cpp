@@ -1,5 +1,5 @@
 // Settings come back as they were written; what cannot be is named, and never lost.
-#include "shared/settings.h"
+#include "shared/user_settings.h"
 #include "support/folder.h"
 
 #include <gtest/gtest.h>

@@ -114,7 +114,7 @@ say = "Look."
 region = "pit"
 )";
 
-scenario::Lesson lesson() {
+scenario::CaseLesson lesson() {
   auto read = scenario::parse_lesson(kLesson, "my.toml");
   EXPECT_TRUE(read) << read.error().text;
   auto placed = scenario::place(std::move(*read), {}, "my.toml");
@@ -123,7 +123,7 @@ scenario::Lesson lesson() {
 }
 
 TEST(Steps, PlacesAndRegionsHaveRings) {
-  const scenario::Lesson all = lesson();
+  const scenario::CaseLesson all = lesson();
   const std::vector<guidance::Ring> pit = {
       {{0, 0, 8e-3}, 4e-3, "pit"}, {{0, 0, 10e-3}, 2e-3, "pit"}, {{0, 0, 20e-3}, 2e-3, ""}};
   std::vector<guidance::Ring> shown = guidance::rings_of(all.steps[0], all);
@@ -141,7 +141,7 @@ TEST(Steps, PlacesAndRegionsHaveRings) {
 }
 
 TEST(Steps, TheLitTissueHasItsOwnColourAgainAfterwards) {
-  const scenario::Lesson all = lesson();
+  const scenario::CaseLesson all = lesson();
   volume::TissueTable table;
   table.tissues = {{.name = "air"}, {.name = "bone"}, {.name = "nerve"}};
   render::Scene scene;
@@ -160,7 +160,7 @@ TEST(Steps, TheLitTissueHasItsOwnColourAgainAfterwards) {
 TEST(Steps, TheWatchFindsThatAMeasureIsReached) {
   auto bone =
       phantom::bone_from_distance(phantom::cube_grid(24e-3, 48), {}, phantom::ball(10e-3), 8);
-  const scenario::Lesson all = lesson();
+  const scenario::CaseLesson all = lesson();
   guidance::StepWatch watch(*bone, all);
   watch.look(0);
   std::this_thread::sleep_for(std::chrono::milliseconds(500));

@@ -8,7 +8,7 @@
 #include <csignal>
 
 #include "burr/record/player.h"
-#include "window/parts/sessions.h"
+#include "window/parts/kept_sessions.h"
 #include "window/user.h"
 
 namespace burr::app {

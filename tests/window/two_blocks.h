@@ -8,7 +8,7 @@
 
 #include "burr/phantom/build.h"
 #include "burr/phantom/shapes.h"
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 #include "shared/work.h"
 
 namespace burr::app {
@@ -29,7 +29,7 @@ inline std::unique_ptr<volume::Bone> two_blocks(const volume::TissueTable& tissu
 }
 
 // options: the hands.
-inline Result<Ready> ready_two_blocks(WorkOptions options = {}) {
+inline Result<WindowSession> ready_two_blocks(WorkOptions options = {}) {
   options.volume.source = "block";
   options.volume.voxel_mm = 1e3 * kBlockVoxel;
   NoProgress quiet;
@@ -38,7 +38,7 @@ inline Result<Ready> ready_two_blocks(WorkOptions options = {}) {
   if (!work) return work.error();
   work->bone = two_blocks(work->bone->tissues());
   work->work_case.reset();
-  return make_ready(options, std::move(*work), quiet);
+  return make_window_session(options, std::move(*work), quiet);
 }
 
 }  // namespace burr::app

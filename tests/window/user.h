@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "shared/make_ready.h"
-#include "shared/words.h"
+#include "shared/window_session.h"
+#include "shared/word_names.h"
 #include "shared/work.h"
 #include "support/data.h"
 #include "support/folder.h"
@@ -179,14 +179,14 @@ class Window : public testing::Test {
   }
 
   // a block by formula, coarse, ready to be milled
-  static Result<Ready> block() {
+  static Result<WindowSession> block() {
     WorkOptions options;
     options.volume.source = "block";
     options.volume.voxel_mm = 0.5;
     NoProgress quiet;
     return open_ready(options, quiet);
   }
-  void mill_by(Ready& ready, std::vector<Script::Step> steps) {
+  void mill_by(WindowSession& ready, std::vector<Script::Step> steps) {
     Script script(std::move(steps), desk_->status_text);
     desk_->after_frame = [&script] { script.look(); };
     const auto left = mill(*desk_, *ready.session, ready.hands, *ready.worker, ready.scene, {});

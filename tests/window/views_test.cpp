@@ -1,5 +1,5 @@
 // The four views: where a session begins, what each key shows, and that nothing covers the work.
-#include "window/mill/views.h"
+#include "window/mill/work_views.h"
 
 #include <cmath>
 #include <random>
@@ -17,7 +17,7 @@ namespace {
 
 using math::Vec3;
 
-std::optional<scenario::Lesson> placed_lesson_of(const scenario::Case& work) {
+std::optional<scenario::CaseLesson> placed_lesson_of(const scenario::Case& work) {
   auto read = scenario::lesson_of(work);
   if (!read) return std::nullopt;
   auto placed = scenario::place(std::move(*read), workshop::landmarks_of(work), work.name);
@@ -84,7 +84,7 @@ TEST(Seen, GivesBackTheCameraThatWasRecorded) {
 
 class ViewsWindow : public Window {
  protected:
-  static Result<Ready> bone() {
+  static Result<WindowSession> bone() {
     WorkOptions options;
     options.volume.source = "temporal-bone";
     options.volume.voxel_mm = 0.6;
@@ -92,7 +92,7 @@ class ViewsWindow : public Window {
     if (const Status taken = take_case(options); !taken) return taken.error();
     return open_ready(options, quiet);
   }
-  void mill_case(Ready& ready, std::vector<Script::Step> steps) {
+  void mill_case(WindowSession& ready, std::vector<Script::Step> steps) {
     Script script(std::move(steps), desk_->status_text);
     desk_->after_frame = [&script] { script.look(); };
     WindowOptions options;

@@ -1,5 +1,5 @@
 // What is milled, and with what, when a person asks for a bone.
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace burr::app {
 namespace {
 
-Result<Ready> ball_of(double voxel_mm, double burr_mm) {
+Result<WindowSession> ball_of(double voxel_mm, double burr_mm) {
   WorkOptions options;
   options.volume.source = "phantom:ball";
   options.volume.voxel_mm = voxel_mm;
@@ -21,7 +21,7 @@ Result<Ready> ball_of(double voxel_mm, double burr_mm) {
   if (const Status taken = take_case(options); !taken) return taken.error();
   auto work = open_work(options, quiet);
   if (!work) return work.error();
-  return make_ready(options, std::move(*work), quiet);
+  return make_window_session(options, std::move(*work), quiet);
 }
 
 TEST(Work, ABurrTooSmallForTheVoxelsMakesWayForOneThatFitsAndSaysSo) {

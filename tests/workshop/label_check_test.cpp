@@ -99,10 +99,10 @@ TEST(LabelFigures, SolidTissueEndsAtTheSurfaceAndNeighboursAreFound) {
   EXPECT_EQ(figures_of(*bone, 3).pieces, 0);
 }
 
-scenario::Lesson lesson_with(const std::string& structures) {
+scenario::CaseLesson lesson_with(const std::string& structures) {
   const auto read = scenario::parse_lesson("format = 2\ntitle = \"t\"\n" + structures, "my.toml");
   EXPECT_TRUE(read) << read.error().text;
-  return read ? *read : scenario::Lesson();
+  return read ? *read : scenario::CaseLesson();
 }
 
 std::vector<LabelFinding> check(const std::string& structures, const volume::Bone& bone,
@@ -228,7 +228,7 @@ TEST(CheckLabels, TheSentenceNamesTheLineOfTheFirstFault) {
 // ---- real bones
 
 LabelFigures facial_nerve_of(const std::string& file) {
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   recipe.source = (test::data_dir() / "temporal_bone" / file).string();
   NoProgress quiet;
   auto made = open_bone(recipe, quiet);

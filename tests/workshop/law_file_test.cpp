@@ -1,4 +1,4 @@
-// Laws of one's own from shared libraries that the build made (samples/laws, tests/support/laws).
+// Custom laws from shared libraries that the build made (samples/laws, tests/support/laws).
 #include "burr/workshop/law_file.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "burr/workshop/sha256.h"
 #include "support/folder.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::workshop {
 namespace {

@@ -1,4 +1,4 @@
-// A tool of one's own whose part is a mesh: from the list of tools to the recording.
+// A custom tool whose part is a mesh: from the list of tools to the recording.
 #include "burr/workshop/mesh_shape.h"
 
 #include <gtest/gtest.h>

@@ -80,7 +80,7 @@ TEST(Segment, CutFreeAndMovedByFiveMillimetresItSitsWhereThePlanSays) {
   ASSERT_GT(1e9 * kerf, 20) << "the bar was not divided";
   ASSERT_EQ(volume::PieceFinder(std::as_const(session.bone())).pieces().size(), 2U);
 
-  scenario::Lesson lesson;
+  scenario::CaseLesson lesson;
   scenario::PlannedPiece& plan = lesson.pieces.emplace_back();
   plan.near.at = Vec3(6, 0, 0) * kMm;
   plan.by = Vec3(5, 0, 0) * kMm;

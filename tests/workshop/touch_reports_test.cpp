@@ -26,7 +26,7 @@ struct Felt {
 Felt felt(const std::string& scan, const std::string& path, double burr_mm, bool margin = true) {
   const std::filesystem::path folder = test::data_dir() / "reports" / "touch";
   NoProgress quiet;
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   recipe.source = (folder / scan).string();
   recipe.margin = margin;
   Felt out;

@@ -20,8 +20,8 @@ class Workshop : public testing::Test {
   NoProgress quiet_;
 };
 
-scenario::Recipe coarse() {
-  scenario::Recipe recipe;
+scenario::BoneRecipe coarse() {
+  scenario::BoneRecipe recipe;
   recipe.voxel_mm = 0.8;
   return recipe;
 }
@@ -55,7 +55,7 @@ TEST_F(Workshop, ATissueThatTheBoneLacksIsOneSentence) {
 }
 
 TEST_F(Workshop, ABurrTooSmallForTheVoxelsIsANotice) {
-  scenario::Recipe recipe;
+  scenario::BoneRecipe recipe;
   recipe.source = "phantom:ball";
   recipe.voxel_mm = 1.33;
   const auto prepared = prepare(recipe, quiet_);

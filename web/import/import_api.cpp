@@ -33,8 +33,8 @@ Import& import() {
 }
 
 // {"iso": 300, "region": [i0, i1, j0, j1, k0, k1], "memory_mb": 1024, "allow_missing": true, "as_it_is": true}; each may be missing.
-scenario::Recipe recipe_of(const char* text) {
-  scenario::Recipe recipe;
+scenario::BoneRecipe recipe_of(const char* text) {
+  scenario::BoneRecipe recipe;
   const json asked = json::parse(text, nullptr, false);
   recipe.memory_mb = 1024;
   if (!asked.is_object()) return recipe;

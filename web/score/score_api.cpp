@@ -50,7 +50,7 @@ constexpr std::size_t kReserveBricks = 2048;
 
 struct Course {
   scenario::Case work;
-  scenario::Lesson lesson;
+  scenario::CaseLesson lesson;
   record::Mode mode = record::Mode::free;
   workshop::Allowed allowed;
   guidance::Steps steps;

@@ -6,7 +6,7 @@ namespace burr::workshop {
 
 // A recording of the page always holds its bone.
 Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
-                                              const scenario::Recipe& /*given*/,
+                                              const scenario::BoneRecipe& /*given*/,
                                               Progress& /*progress*/) {
   return player.embedded_bone();
 }

@@ -44,7 +44,7 @@ constexpr double kNear = 1e-3,
                  kFarAgain = 1.3e-3;  // of what must not be cut, as mill_diary.cpp  [m]
 
 struct Watch {
-  scenario::Lesson lesson;
+  scenario::CaseLesson lesson;
   workshop::Allowed allowed;
   workshop::SparedDistance spared;
   double voxel = 0;  // [m]

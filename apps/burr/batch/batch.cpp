@@ -28,11 +28,11 @@
 #include "burr/base/printable.h"
 #include "burr/rt/simd.h"
 #include "burr/workshop/bone_cache.h"
-#include "shared/command.h"
 #include "shared/console.h"
 #include "shared/counted.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {
@@ -73,8 +73,8 @@ std::string now_utc() {
   return {text.data(), size};
 }
 
-nlohmann::json times_of(const ManifestRow& row, const Account& account, const std::string& began,
-                        Clock::time_point start) {
+nlohmann::json times_of(const ManifestRow& row, const CommandResult& findings,
+                        const std::string& began, Clock::time_point start) {
   std::array<char, 256> host = {};
   static_cast<void>(gethostname(host.data(), host.size() - 1));
   rusage used = {};
@@ -89,7 +89,7 @@ nlohmann::json times_of(const ManifestRow& row, const Account& account, const st
           {"wall_s", seconds_since(start)},
           {"cpu_s", seconds(used.ru_utime) + seconds(used.ru_stime)},
           {"peak_mb", static_cast<double>(used.ru_maxrss) / 1024},
-          {"times", account.times}};
+          {"times", findings.times}};
 }
 
 Status write_failure(const Batch& batch, const ManifestRow& row, int code,
@@ -103,7 +103,7 @@ Status write_failure(const Batch& batch, const ManifestRow& row, int code,
 }
 
 // The times come first: where there is a result, there are its times.
-Status write_result(const Batch& batch, const ManifestRow& row, const Account& account,
+Status write_result(const Batch& batch, const ManifestRow& row, const CommandResult& findings,
                     const nlohmann::json& times) {
   if (const Status written = ResultFiles::write(batch.files.times(row.id), times); !written)
     return written;
@@ -112,7 +112,7 @@ Status write_result(const Batch& batch, const ManifestRow& row, const Account& a
                                                       {"id", row.id},
                                                       {"inputs", batch.manifest.inputs(row)},
                                                       {"manifest", batch.manifest.hash},
-                                                      {"result", account.result}});
+                                                      {"result", findings.result}});
   if (!written) return written;
   std::error_code nobody_asks;
   fs::remove(batch.files.failure(row.id), nobody_asks);
@@ -131,20 +131,20 @@ int work_on(const Batch& batch, const ManifestRow& row) {
     fs::create_directories(file.parent_path(), trouble);
     more = {"--record=" + file.string(), "--force"};
   }
-  const auto account = do_row(batch.manifest, row, more);
-  if (!account && account.error().trouble == Trouble::interrupted) return stopped_code();
+  const auto findings = do_row(batch.manifest, row, more);
+  if (!findings && findings.error().trouble == Trouble::interrupted) return stopped_code();
   const Status written =
-      account ? write_result(batch, row, *account, times_of(row, *account, began, start))
-              : write_failure(batch, row, static_cast<int>(account.error().trouble),
-                              account.error().text);
+      findings ? write_result(batch, row, *findings, times_of(row, *findings, began, start))
+               : write_failure(batch, row, static_cast<int>(findings.error().trouble),
+                               findings.error().text);
   if (!written) {
     std::fprintf(stderr, "burr: %s\n", written.error().text.c_str());
     return kCannotWrite;
   }
-  if (account) return 0;
-  std::fprintf(stderr, "burr: %s: %s\n", row.id.c_str(), account.error().text.c_str());
-  return account.error().trouble == Trouble::data ? static_cast<int>(Trouble::data)
-                                                  : static_cast<int>(kTryAgain);
+  if (findings) return 0;
+  std::fprintf(stderr, "burr: %s: %s\n", row.id.c_str(), findings.error().text.c_str());
+  return findings.error().trouble == Trouble::data ? static_cast<int>(Trouble::data)
+                                                   : static_cast<int>(kTryAgain);
 }
 
 // The rows of the shard that are not done yet. Error: a file in DIR comes from another row of that id.

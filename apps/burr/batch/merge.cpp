@@ -19,9 +19,9 @@
 #include "batch/result_files.h"
 #include "batch/row.h"
 #include "burr/base/printable.h"
-#include "shared/command.h"
 #include "shared/counted.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

@@ -204,15 +204,15 @@ Result<RowTodo> todo_of(const Manifest& manifest, const ManifestRow& row,
   return todo;
 }
 
-Result<Account> do_row(const Manifest& manifest, const ManifestRow& row,
-                       const std::vector<std::string>& more) {
+Result<CommandResult> do_row(const Manifest& manifest, const ManifestRow& row,
+                             const std::vector<std::string>& more) {
   try {
     const auto todo = todo_of(manifest, row, more);
     if (!todo) return todo.error();
-    Account account;
-    const Status done = todo->work(account);
+    CommandResult findings;
+    const Status done = todo->work(findings);
     if (!done) return judged(done.error(), manifest, row);
-    return account;
+    return findings;
   } catch (const std::bad_alloc&) {
     return error(kTryAgain,
                  "not enough memory; ask for more (`burr batch --dry-run` says how much)");

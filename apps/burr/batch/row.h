@@ -23,7 +23,7 @@ inline constexpr Trouble kTryAgain{75};
                                       const std::vector<std::string>& more = {});
 
 // Does the work. Error, data: of the row, which will never do; kTryAgain: of this machine, now; interrupted; other kinds: of burr.
-[[nodiscard]] Result<Account> do_row(const Manifest& manifest, const ManifestRow& row,
-                                     const std::vector<std::string>& more);
+[[nodiscard]] Result<CommandResult> do_row(const Manifest& manifest, const ManifestRow& row,
+                                           const std::vector<std::string>& more);
 
 }  // namespace burr::app

@@ -20,7 +20,7 @@ class App;
 namespace burr::app {
 
 // What a command has found, as --json prints it.
-struct Account {
+struct CommandResult {
   nlohmann::json result;  // the same to the bit whenever and wherever this build does it
   nlohmann::json times;   // what depends on the machine and its load
 
@@ -33,7 +33,7 @@ struct Account {
 
 // Set when a command line was parsed.
 struct RowTodo {
-  std::function<Status(Account&)> work;
+  std::function<Status(CommandResult&)> work;
   // Opens the bone of this row and says how much memory its work needs [MB]; none: nobody knows.
   std::function<Result<double>()> memory_mb = {};
 };

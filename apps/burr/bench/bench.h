@@ -4,7 +4,7 @@
 //     namespace {
 //     void add(CLI::App& bench, burr::app::Todo& todo) {
 //       auto* command = bench.add_subcommand("surface", "the whole surface of a phantom");
-//       ...                                            // as in command.h
+//       ...                                            // as in subcommand.h
 //     }
 //     const burr::app::BenchCommand command{20, add};  // 20: place in the help
 //     }
@@ -13,7 +13,7 @@
 #include <chrono>
 #include <vector>
 
-#include "shared/command.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 

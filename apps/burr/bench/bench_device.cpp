@@ -18,9 +18,9 @@
 #include "shared/hand_options.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
-#include "shared/make_ready.h"
 #include "shared/setting_options.h"
 #include "shared/volume_words.h"
+#include "shared/window_session.h"
 #include "shared/work.h"
 
 namespace burr::app {
@@ -93,7 +93,7 @@ Status run(const Options& options) {
   auto work = open_work(requested, progress());
   if (!work) return work.error();
   const math::Vec3 outward = -work->place.into;
-  auto ready = make_ready(requested, std::move(*work), progress());
+  auto ready = make_window_session(requested, std::move(*work), progress());
   if (!ready) return ready.error();
   sim::Session& session = *ready->session;
   // straight down points into the bone

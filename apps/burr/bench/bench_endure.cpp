@@ -37,7 +37,7 @@ constexpr double kAllowed = 1.10;  // p99.9 of lateness relative to a loop that 
 constexpr double kResolved = 5;    // ... and the difference between two such loops [us]
 
 struct Options {
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   WholeOptions whole;
   double burr_mm = 5, rate_hz = 1000, waiting_s = 10;
   bool json = false;

@@ -53,7 +53,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPocket = 20;  // [s]
 
 struct Options {
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   PictureSize size;
   double burr_mm = 5, rate_hz = 1000, seconds = 10;
   int turns = 60;

@@ -26,7 +26,7 @@ namespace {
 using namespace burr;
 
 struct Options {
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   double burr_mm = 5;
   bool json = false;
 };

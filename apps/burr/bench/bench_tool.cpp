@@ -243,7 +243,7 @@ void add(CLI::App& bench, app::Todo& todo) {
   scenes.emplace_back("all");
   auto* command = bench.add_subcommand("tool", "measure one tick with the tools of the rack");
   command->add_option("--tool", options->tool, "one of the rack, or all")->capture_default_str();
-  command->add_option("--tools", options->tools, "F.toml: tools of one's own for the rack");
+  command->add_option("--tools", options->tools, "F.toml: custom tools for the rack");
   command->add_option("--scene", options->scene, "plane, groove, hole, slot, rough or all")
       ->check(CLI::IsMember(scenes))
       ->capture_default_str();

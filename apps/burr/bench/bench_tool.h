@@ -10,7 +10,7 @@ namespace burr::app {
 
 struct ToolBench {
   std::string tool = "all", scene = "all";  // of the rack; one of the scenes
-  std::string tools = {};                   // a list of tools of one's own; empty: none
+  std::string tools = {};                   // a list of custom tools; empty: none
   int ticks = 2000, size = 256;             // of each scene; voxels along its edge
   double speed = 1;                         // of the hand, over 100 mm/s and 3 rad/s
   bool mill = false, json = false;

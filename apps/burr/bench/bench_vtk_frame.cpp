@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/command.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

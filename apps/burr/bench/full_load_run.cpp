@@ -15,9 +15,9 @@
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/work_view.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
-#include "shared/recording.h"
+#include "shared/recorded_session.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {
@@ -157,7 +157,7 @@ Result<PocketsAgain> pockets_again(const surgeon::WorkPlace& place, double burr_
 }
 
 Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& place,
-                               const scenario::Recipe& volume,
+                               const scenario::BoneRecipe& volume,
                                const importing::ImportSummary& import, const WholeOptions& options,
                                Progress& progress) {
   WholeOutcome out;

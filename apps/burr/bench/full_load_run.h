@@ -49,7 +49,7 @@ struct WholeOutcome {
 // Runs a session in real time. `import` and `volume` describe its bone in the recording. Error:
 // interrupted, or the recording could not be finished.
 [[nodiscard]] Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& place,
-                                             const scenario::Recipe& volume,
+                                             const scenario::BoneRecipe& volume,
                                              const importing::ImportSummary& import,
                                              const WholeOptions& options, Progress& progress);
 

@@ -15,8 +15,8 @@
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {
@@ -45,7 +45,7 @@ struct Bench {
   std::unique_ptr<sim::Session> session;
   surgeon::WorkPlace place;
   importing::ImportSummary import;
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
 };
 
 Result<Bench> make_bench(const MachineTrial& options, double seconds) {

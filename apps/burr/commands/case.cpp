@@ -28,10 +28,10 @@
 #include "burr/workshop/prepare.h"
 #include "commands/case_new.h"
 #include "shared/bone_option.h"
-#include "shared/command.h"
 #include "shared/counted.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
 
 namespace burr::app {
@@ -41,7 +41,7 @@ struct Options {
   std::string name;
   std::uint32_t bone = 0;
   std::vector<std::string> accepted;
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   bool json = false;
 };
 
@@ -114,7 +114,7 @@ Status run_check(const Options& options) {
 // ---- case new
 
 struct NewOptions {
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   std::string out;
   bool force = false;
 };

@@ -12,8 +12,8 @@
 #include "burr/rt/machine_check.h"
 #include "burr/workshop/hand_device.h"
 #include "devices/springs_words.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

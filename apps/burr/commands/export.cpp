@@ -21,9 +21,9 @@
 #include "commands/export_dataset.h"
 #include "commands/export_dicom.h"
 #include "commands/export_pieces.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
 
 namespace burr::app {
@@ -31,8 +31,8 @@ namespace {
 
 struct Options {
   std::string source, out;
-  scenario::Recipe volume;  // path: --volume, of a recording
-  double at_s = -1;         // moment in a recording; below 0: its end
+  scenario::BoneRecipe volume;  // path: --volume, of a recording
+  double at_s = -1;             // moment in a recording; below 0: its end
   std::string part = "bone", frame = "lps";
   bool scan = false, largest = false;
   DatasetOptions dataset;
@@ -77,7 +77,7 @@ bool is_recording(const std::string& path) {
 }
 
 // A scan, with the study that it belongs to.
-Result<io::Scan> read_with_study(const scenario::Recipe& volume) {
+Result<io::Scan> read_with_study(const scenario::BoneRecipe& volume) {
   io::ReadOptions reading = workshop::read_options(volume);
   reading.study = true;
   return io::read_scan(volume.source, reading, progress());
@@ -88,7 +88,7 @@ Result<Bones> open_plain(const Options& options) {
   if (options.part == "removed" || options.part == "added")
     return error(Trouble::usage,
                  "nothing has been removed from this volume, or added; give a recording (.mcap)");
-  scenario::Recipe volume = options.volume;
+  scenario::BoneRecipe volume = options.volume;
   volume.source = options.source;
   volume.reserve_bricks = 0;
   Bones bones;
@@ -177,7 +177,7 @@ Status check_parts(const Options& options) {
 
 // The labels of a file on its own grid.
 Status export_labels(const Options& options) {
-  scenario::Recipe volume = options.volume;
+  scenario::BoneRecipe volume = options.volume;
   volume.source = options.source;
   if (scenario::is_phantom(volume.source) || volume.source.ends_with(".bone"))
     return error(Trouble::usage,

@@ -33,7 +33,7 @@ std::string voxels_text(std::uint64_t many) {
   return many == 1 ? "1 voxel" : fmt::format("{} voxels", many);
 }
 
-void tell(const dataset::Account& account, bool json) {
+void tell(const dataset::Written& account, bool json) {
   if (json) {
     nlohmann::ordered_json row;
     row["part"] = "dataset";
@@ -93,7 +93,7 @@ std::string given_of(const DatasetOptions& options) {
   return "";
 }
 
-Status export_dataset(const std::string& source, const scenario::Recipe& volume,
+Status export_dataset(const std::string& source, const scenario::BoneRecipe& volume,
                       const std::string& out, const DatasetOptions& options, bool json,
                       Progress& progress) {
   dataset::Options wanted;

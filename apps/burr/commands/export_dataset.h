@@ -31,7 +31,7 @@ void add_dataset_options(CLI::App& command, DatasetOptions& options);
 [[nodiscard]] std::string given_of(const DatasetOptions& options);
 
 // Writes the file, or files, and prints what is in them. volume: of the recording.
-[[nodiscard]] Status export_dataset(const std::string& source, const scenario::Recipe& volume,
+[[nodiscard]] Status export_dataset(const std::string& source, const scenario::BoneRecipe& volume,
                                     const std::string& out, const DatasetOptions& options,
                                     bool json, Progress& progress);
 

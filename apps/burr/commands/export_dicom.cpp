@@ -43,7 +43,7 @@ bool names_patient(const io::DicomStudy& study) {
 }
 
 Result<std::optional<io::DicomStudy>> study_of(const DicomOptions& options,
-                                               const scenario::Recipe& recipe,
+                                               const scenario::BoneRecipe& recipe,
                                                const io::Scan* source, const io::Scan& labels,
                                                Progress& progress) {
   if (options.no_patient) return std::optional<io::DicomStudy>();
@@ -96,7 +96,7 @@ bool is_dicom_path(const std::string& path) {
          });
 }
 
-Result<io::SegOptions> seg_options(const DicomOptions& options, const scenario::Recipe& recipe,
+Result<io::SegOptions> seg_options(const DicomOptions& options, const scenario::BoneRecipe& recipe,
                                    const io::Scan* source, const io::Scan& labels,
                                    Progress& progress) {
   io::SegOptions seg;
@@ -120,7 +120,7 @@ Result<io::SegOptions> seg_options(const DicomOptions& options, const scenario::
   return seg;
 }
 
-Result<io::Scan> own_labels(io::Scan scan, const scenario::Recipe& recipe) {
+Result<io::Scan> own_labels(io::Scan scan, const scenario::BoneRecipe& recipe) {
   if (scan.labels.empty())
     return error(
         fmt::format("{}: is a grey scan, which has no labels; leave out --part labels to "

@@ -34,12 +34,12 @@ void add_dicom_options(CLI::App& command, DicomOptions& options);
 // source: the scan that the labels were made from, if it was read with ReadOptions::study; may be nullptr. labels: the
 // segments to be, for their codes and their place.
 [[nodiscard]] Result<io::SegOptions> seg_options(const DicomOptions& options,
-                                                 const scenario::Recipe& recipe,
+                                                 const scenario::BoneRecipe& recipe,
                                                  const io::Scan* source, const io::Scan& labels,
                                                  Progress& progress);
 
 // The labels of a scan as they are, with the names of the table, if the recipe has one.
-[[nodiscard]] Result<io::Scan> own_labels(io::Scan scan, const scenario::Recipe& recipe);
+[[nodiscard]] Result<io::Scan> own_labels(io::Scan scan, const scenario::BoneRecipe& recipe);
 
 // Prints what was written. voxel_mm3: of the labels.
 void tell_segments(const std::string& out, const std::vector<io::SegSegment>& segments,

@@ -17,9 +17,9 @@
 #include "burr/fit/laws.h"
 #include "burr/fit/recorded_log.h"
 #include "burr/importing/materials.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

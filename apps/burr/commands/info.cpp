@@ -16,9 +16,9 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
-#include "commands/session_words.h"
-#include "shared/command.h"
+#include "commands/session_lines.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
 #include "window/replay/playback.h"
 
@@ -26,7 +26,7 @@ namespace burr::app {
 namespace {
 
 struct Options {
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   bool json = false;
 };
 
@@ -162,7 +162,7 @@ nlohmann::json with_fence(nlohmann::json out) {
 }
 
 // The content of the file and, if it can be milled, the plan of its import.
-Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
+Result<importing::ImportSummary> look(const scenario::BoneRecipe& recipe) {
   if (scenario::is_phantom(recipe.source)) {
     auto made = workshop::open_bone(recipe, progress());
     if (!made) return made.error();
@@ -198,15 +198,15 @@ Result<importing::ImportSummary> look(const scenario::Recipe& recipe) {
 
 // Only where one was moved is the bone opened.
 Result<std::vector<report::MovedPiece>> pieces_of(record::Player& player,
-                                                  const scenario::Recipe& volume,
+                                                  const scenario::BoneRecipe& volume,
                                                   const std::optional<scenario::Case>& work) {
   std::vector<report::MovedPiece> none;
   if (!sim::moves_pieces(player)) return none;
-  scenario::Recipe recipe = volume;
+  scenario::BoneRecipe recipe = volume;
   recipe.source.clear();  // the recording itself was named
   auto bone = workshop::bone_of(player, recipe, progress());
   if (!bone) return bone.error();
-  std::optional<scenario::Lesson> lesson;
+  std::optional<scenario::CaseLesson> lesson;
   if (work) {
     auto placed = workshop::placed_lesson(*work);
     if (!placed) return placed.error();

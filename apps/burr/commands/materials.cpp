@@ -9,8 +9,8 @@
 #include <string>
 
 #include "burr/base/printable.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

@@ -28,15 +28,15 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
 #include "burr/workshop/work_view.h"
-#include "commands/mill_account.h"
 #include "commands/mill_options.h"
 #include "commands/mill_pieces.h"
+#include "commands/mill_result.h"
 #include "commands/mill_way.h"
 #include "commands/second_options.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
 #include "shared/outputs.h"
-#include "shared/recording.h"
+#include "shared/recorded_session.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {
@@ -119,8 +119,8 @@ device::ArmSettings arm_of(std::string_view grip) {
   return arm;
 }
 
-// given: takes the account; nullptr: it is printed.
-Status run(MillOptions options, Account* given) {
+// given: takes the findings; nullptr: it is printed.
+Status run(MillOptions options, CommandResult* given) {
   if (options.path_csv.empty() == options.motion_name.empty())
     return error(Trouble::usage,
                  fmt::format("give either --path FILE.csv or --motion NAME (one of {}; with a case "
@@ -209,8 +209,8 @@ Status run(MillOptions options, Account* given) {
   if (left && !left->sentence.empty()) doubts.push_back(left->sentence);
   Told told{std::move(doubts), pieces_of(options, store, session.bone()), left};
   if (options.heat) static_cast<void>(session.heat(told.heat));
-  Account account = account_of(options, session, recording, told);
-  tell(options, session, told, std::move(account), given);
+  CommandResult findings = result_of(options, session, recording, told);
+  tell(options, session, told, std::move(findings), given);
   if (!put) return put;
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
@@ -224,7 +224,7 @@ void add(CLI::App& app, Todo& todo) {
 
 void add_row(CLI::App& app, RowTodo& todo) {
   add_mill(app, [&todo](auto options) {
-    todo.work = [options](Account& account) { return run(*options, &account); };
+    todo.work = [options](CommandResult& findings) { return run(*options, &findings); };
     todo.memory_mb = [options]() -> Result<double> {
       MillOptions own = *options;
       const auto opened = open_volume(own);

@@ -129,7 +129,7 @@ Status take_case(MillOptions& options) {
       options.into = {work->into->x(), work->into->y(), work->into->z()};
     options.tool.own = work->own_tools;
     if (work->session)
-      for (const scenario::SessionWish::Field& field : work->session->fields)
+      for (const scenario::CaseSettings::Field& field : work->session->fields)
         options.settings[field.word] = field.value;
     options.work_case = std::move(*work);
   }

@@ -29,7 +29,7 @@ namespace burr::app {
 inline constexpr std::string_view kStepMotion = "step:";  // --motion step:ID
 
 struct MillOptions {
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   PictureSize size;
   std::string path_csv, motion_name, record, picture, arm = "firm", mirror;
   ToolOptions tool;

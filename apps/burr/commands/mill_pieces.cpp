@@ -8,8 +8,8 @@
 #include "burr/base/printable.h"
 #include "burr/report/piece_words.h"
 #include "burr/surgeon/motion.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

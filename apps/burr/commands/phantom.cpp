@@ -12,9 +12,9 @@
 #include "burr/phantom/phantoms.h"
 #include "burr/volume/volume_of.h"
 #include "burr/workshop/prebuilt_phantom.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

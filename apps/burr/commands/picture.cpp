@@ -12,9 +12,9 @@
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/opening.h"
 #include "burr/workshop/work_view.h"
-#include "shared/command.h"
 #include "shared/outputs.h"
 #include "shared/picture_size.h"
+#include "shared/subcommand.h"
 #include "shared/views.h"
 #include "shared/volume_words.h"
 
@@ -22,7 +22,7 @@ namespace burr::app {
 namespace {
 
 struct Options {
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   ViewOptions view;
   PictureSize size;
   std::string out;

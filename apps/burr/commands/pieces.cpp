@@ -18,8 +18,8 @@
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
 
 namespace burr::app {
@@ -27,7 +27,7 @@ namespace {
 
 struct Options {
   std::string source;
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   double at_s = -1;  // below 0: the end
   bool json = false;
 };
@@ -37,7 +37,7 @@ Status run(const Options& options) {
   if (!player) return player.error();
   auto bone = workshop::bone_of(**player, options.volume, progress());
   if (!bone) return bone.error();
-  std::optional<scenario::Lesson> lesson;
+  std::optional<scenario::CaseLesson> lesson;
   if ((*player)->info().work_case) {
     const auto work = record::case_of(*(*player)->info().work_case);
     if (!work) return work.error();

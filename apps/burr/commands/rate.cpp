@@ -25,9 +25,9 @@
 #include "burr/scoring/rubric.h"
 #include "school/products.h"
 #include "school/store_command.h"
-#include "shared/command.h"
 #include "shared/counted.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
 #include "window/rate/rate_page.h"
 #include "window/ui/desk.h"
@@ -46,7 +46,7 @@ struct Options {
   bool window = false;
   std::uint64_t seed = 0;  // 0: burr draws one
   std::size_t most = 20;
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   bool json = false;
 };
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "burr/record/repair.h"
-#include "shared/command.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 
 namespace {
 

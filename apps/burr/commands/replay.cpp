@@ -34,13 +34,13 @@
 #include "burr/workshop/tool_looks.h"
 #include "burr/workshop/traces.h"
 #include "burr/workshop/work_view.h"
-#include "shared/command.h"
 #include "shared/film_file.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
 #include "shared/law_options.h"
 #include "shared/outputs.h"
 #include "shared/picture_size.h"
+#include "shared/subcommand.h"
 #include "shared/views.h"
 #include "window/shell/pages.h"
 
@@ -58,7 +58,7 @@ std::string tool_text(const tool::ToolState& tool, const record::SessionInfo& in
 struct Options {
   std::string file, beside, picture, film, sound;
   ViewOptions view;
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   PictureSize size;
   LawChoice law;
   double at = -1, fps = 25;

@@ -17,17 +17,17 @@
 #include "burr/report/score_words.h"
 #include "burr/report/scored.h"
 #include "burr/report/self_marks.h"
-#include "shared/command.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {
 
 struct Options {
   std::string source, other, rubric, out, self, beside, language = "en";
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   std::size_t pictures = 12;
 };
 

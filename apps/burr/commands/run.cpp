@@ -28,17 +28,17 @@
 #include "commands/summary.h"
 #include "school/xapi.h"
 #include "shared/bone_option.h"
-#include "shared/command.h"
 #include "shared/hand_options.h"
 #include "shared/identity_options.h"
 #include "shared/interrupt.h"
 #include "shared/law_options.h"
-#include "shared/make_ready.h"
 #include "shared/outputs.h"
-#include "shared/recording.h"
+#include "shared/recorded_session.h"
 #include "shared/setting_options.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
-#include "shared/words.h"
+#include "shared/window_session.h"
+#include "shared/word_names.h"
 #include "shared/work.h"
 #include "window/mill/window.h"
 #include "window/review/enter_session.h"
@@ -63,8 +63,8 @@ bool display_there() {
 }
 
 // What a session in the window leaves in the folder that the user named.
-Status write_session(const Options& options, const Ready& ready, const render::Scene& before,
-                     const Status& recorded) {
+Status write_session(const Options& options, const WindowSession& ready,
+                     const render::Scene& before, const Status& recorded) {
   const std::filesystem::path folder = options.out;
   sim::Session& session = *ready.session;
   Summary summary = summary_of_run(session, ready.what, session.hand().spec().name);
@@ -94,7 +94,7 @@ Status write_session(const Options& options, const Ready& ready, const render::S
 }
 
 // A session whose recording, pictures and figures go into the folder that the user named.
-Result<Closed> mill_into_folder(Desk& desk, Ready& ready, const Options& options,
+Result<Closed> mill_into_folder(Desk& desk, WindowSession& ready, const Options& options,
                                 const WindowOptions& window) {
   const std::string file = (std::filesystem::path(options.out) / "session.mcap").string();
   sim::Session& session = *ready.session;
@@ -149,7 +149,7 @@ Result<Closed> session_in_window(Desk& desk, const Options& options) {
   if (desk.settings.shaft_touches) work.touch = haptics::Method::shaft;
   if (work.work_case) fmt::print(stderr, "{}", scenario::task_text(*work.work_case));
   bool closed = false;
-  auto loaded = load<Ready>(
+  auto loaded = load<WindowSession>(
       desk, say(Word::loading, work.title.empty() ? word(Word::start_scan) : work.title),
       [work](Progress& seen) { return open_ready(work, seen); }, closed);
   if (closed) return Closed::window;

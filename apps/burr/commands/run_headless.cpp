@@ -23,9 +23,9 @@
 #include "burr/workshop/tool_looks.h"
 #include "burr/workshop/work_view.h"
 #include "commands/summary.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
-#include "shared/recording.h"
+#include "shared/recorded_session.h"
+#include "shared/subcommand.h"
 #include "shared/work.h"
 
 namespace burr::app {
@@ -78,7 +78,7 @@ Status run_headless(const RunOptions& options) {
   if (requested.work_case) fmt::print(stderr, "{}", scenario::task_text(*requested.work_case));
   auto opened = open_work(requested, progress());
   if (!opened) return opened.error();
-  workshop::Prepared& work = *opened;
+  workshop::PreparedBone& work = *opened;
   for (const std::string& notice : work.summary.notices) fmt::print(stderr, "{}\n", notice);
   const auto chosen = settings_of(requested, false);
   if (!chosen) return chosen.error();

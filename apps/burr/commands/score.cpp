@@ -27,8 +27,8 @@
 #include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
 #include "shared/bone_option.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
 
 namespace burr::app {
@@ -40,7 +40,7 @@ constexpr const char* kDefaults =
 struct Options {
   std::string source, rubric, explain, work_case;
   std::uint32_t bone = 0;
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   bool json = false;
 };
 
@@ -70,7 +70,7 @@ std::optional<bool> rubric_changed(const record::Player& player, const scoring::
   return who->rubric_hash != rubric.text_hash;
 }
 
-nlohmann::ordered_json account_of(const report::Scored& made, const std::optional<bool>& changed) {
+nlohmann::ordered_json result_of(const report::Scored& made, const std::optional<bool>& changed) {
   const scoring::Rubric& rubric = made.judged.rubric;
   nlohmann::ordered_json out =
       nlohmann::ordered_json::parse(report::score_json(rubric, made.score));
@@ -81,8 +81,8 @@ nlohmann::ordered_json account_of(const report::Scored& made, const std::optiona
   return out;
 }
 
-// given: takes the account; nullptr: it is printed.
-Status run_score(const Options& options, Account* given) {
+// given: takes the findings; nullptr: it is printed.
+Status run_score(const Options& options, CommandResult* given) {
   auto judged = report::judged_by(options.source, options.rubric);
   if (!judged) return judged.error();
   const scoring::Item* wanted = judged->rubric.item(options.explain);
@@ -97,7 +97,7 @@ Status run_score(const Options& options, Account* given) {
   const scoring::Score& score = made->score;
   const auto changed = rubric_changed(player, rubric);
   if (given != nullptr) {
-    given->result = nlohmann::json::parse(json_line(account_of(*made, changed)));
+    given->result = nlohmann::json::parse(json_line(result_of(*made, changed)));
     return fine();
   }
   wanted = rubric.item(options.explain);  // of the rubric as it was moved
@@ -125,14 +125,14 @@ Status run_score(const Options& options, Account* given) {
         "note: when this session was recorded, the rubric of its case was another one; the marks "
         "are those of the rubric as it is now\n");
   fmt::print("{}\n", kDefaults);
-  if (options.json) fmt::print("{}\n", json_line(account_of(*made, changed)));
+  if (options.json) fmt::print("{}\n", json_line(result_of(*made, changed)));
   return fine();
 }
 
 // Work that follows the plan of the case exactly must meet the product. Items that need a recording count
 // as met here, so that those which require them are looked at.
 Status check_reference(const Options& options, const scoring::Rubric& rubric,
-                       const scenario::Case& work, const scenario::Lesson& lesson,
+                       const scenario::Case& work, const scenario::CaseLesson& lesson,
                        const volume::Bone& before) {
   if (!lesson.reference || lesson.reference->remove.empty()) {
     fmt::print(
@@ -231,7 +231,7 @@ void add_score(CLI::App& app, Todo& todo) {
 
 void add_row(CLI::App& app, RowTodo& todo) {
   add_score_to(app, [&todo](auto options) {
-    todo.work = [options](Account& account) { return run_score(*options, &account); };
+    todo.work = [options](CommandResult& findings) { return run_score(*options, &findings); };
   });
 }
 

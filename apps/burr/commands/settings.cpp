@@ -10,8 +10,8 @@
 
 #include "burr/tick/second_hand.h"
 #include "burr/tick/setting_table.h"
-#include "shared/command.h"
 #include "shared/setting_options.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

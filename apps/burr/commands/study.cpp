@@ -24,8 +24,8 @@
 #include "school/agreement.h"
 #include "school/store_command.h"
 #include "school/study_source.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

@@ -9,7 +9,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/version.h"
 #include "shared/html_page.h"
-#include "shared/recording.h"
+#include "shared/recorded_session.h"
 
 namespace burr::app {
 namespace {

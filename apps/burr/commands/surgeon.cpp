@@ -27,12 +27,12 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
 #include "shared/bone_option.h"
-#include "shared/command.h"
 #include "shared/identity_options.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
-#include "shared/recording.h"
+#include "shared/recorded_session.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
 
 namespace burr::app {
@@ -48,7 +48,7 @@ struct Options {
   record::Identity identity;
   std::uint32_t bone = 0;
   std::vector<std::string> vices;
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   std::uint64_t seed = 1;
   double seconds = kLongest, least_seconds = 0;
   bool embed = false, force = false, json = false;
@@ -151,10 +151,10 @@ class Assistant {
 };
 
 void print(const Options& options, sim::Session& session, const Assistant& assistant,
-           const Account& account) {
+           const CommandResult& findings) {
   const sim::Outcome outcome = session.outcome();
   if (!options.json) {
-    const std::string ending = account.result["ending"];
+    const std::string ending = findings.result["ending"];
     fmt::print("{}, seed {}: {:.1f} s, {:.1f} mm3 removed, {:.2f} N mean in contact; {}\n",
                options.level, options.seed, outcome.seconds, 1e9 * outcome.ledger.removed,
                outcome.mean_force, ending);
@@ -169,14 +169,14 @@ void print(const Options& options, sim::Session& session, const Assistant& assis
       fmt::print("noted: {}\n", sentence);
     return;
   }
-  fmt::print("{}\n", json_line(account.whole()));
+  fmt::print("{}\n", json_line(findings.whole()));
 }
 
-Account account_of(const Options& options, sim::Session& session, const Assistant& assistant,
-                   const Recording& recording) {
+CommandResult result_of(const Options& options, sim::Session& session, const Assistant& assistant,
+                        const Recording& recording) {
   const sim::Outcome outcome = session.outcome();
-  Account account;
-  nlohmann::json& out = account.result;
+  CommandResult findings;
+  nlohmann::json& out = findings.result;
   out["finished"] = assistant.done() || !interrupted();
   out["level"] = options.level;
   out["seed"] = options.seed;
@@ -187,12 +187,12 @@ Account account_of(const Options& options, sim::Session& session, const Assistan
   out["steps"] = assistant.steps();
   out["noted"] = tick::words(tick::worth_telling(outcome.flags));
   out["bone_hash"] = record::hex(session.bone().content_hash());
-  if (!options.record.empty()) account.times["recording"] = recording.account();
-  return account;
+  if (!options.record.empty()) findings.times["recording"] = recording.account();
+  return findings;
 }
 
-// given: takes the account; nullptr: it is printed.
-Status run(const Options& options, Account* given) {
+// given: takes the findings; nullptr: it is printed.
+Status run(const Options& options, CommandResult* given) {
   const Status possible = check_outputs({options.volume.materials},
                                         {{"--record", options.record, {".mcap"}}}, options.force);
   if (!possible) return possible;
@@ -228,9 +228,9 @@ Status run(const Options& options, Account* given) {
   session.set_between_ticks([&assistant] { assistant.work(); }, surgeon::kConsultTicks);
   session.run(options.seconds, progress());
   const Status recorded = options.record.empty() ? fine() : recording.finish(session);
-  Account account = account_of(options, session, assistant, recording);
-  if (given == nullptr) print(options, session, assistant, account);
-  if (given != nullptr) *given = std::move(account);
+  CommandResult findings = result_of(options, session, assistant, recording);
+  if (given == nullptr) print(options, session, assistant, findings);
+  if (given != nullptr) *given = std::move(findings);
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");
   return fine();
@@ -285,7 +285,7 @@ void add(CLI::App& app, Todo& todo) {
 
 void add_row(CLI::App& app, RowTodo& todo) {
   add_surgeon(app, [&todo](auto options) {
-    todo.work = [options](Account& account) { return run(*options, &account); };
+    todo.work = [options](CommandResult& findings) { return run(*options, &findings); };
     todo.memory_mb = [options] { return memory_needed(*options); };
   });
 }

@@ -16,9 +16,9 @@
 #include "burr/scenario/rack.h"
 #include "burr/workshop/mesh_shape.h"
 #include "burr/workshop/tool_picture.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

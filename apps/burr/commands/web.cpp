@@ -12,7 +12,7 @@
 
 #include "burr/base/new_file.h"
 #include "shared/built_page.h"
-#include "shared/command.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

@@ -10,11 +10,11 @@
 #include "burr/workshop/hand_device.h"
 #include "devices/springs_words.h"
 #include "devices/trial.h"
-#include "shared/command.h"
 #include "shared/hand_options.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

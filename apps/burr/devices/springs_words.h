@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 
 namespace burr::app {
 

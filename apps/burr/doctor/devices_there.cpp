@@ -7,7 +7,7 @@
 #include "burr/device/openhaptics/hd.h"
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/hand_device.h"
-#include "doctor/look.h"
+#include "doctor/doctor_checks.h"
 #include "doctor/run_in_process.h"
 
 namespace burr::app {

@@ -11,10 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/machine_trial.h"
+#include "doctor/doctor_checks.h"
 #include "doctor/fix.h"
-#include "doctor/look.h"
-#include "shared/command.h"
 #include "shared/json_line.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "burr/base/result.h"
-#include "doctor/look.h"
+#include "doctor/doctor_checks.h"
 
 namespace burr::app {
 

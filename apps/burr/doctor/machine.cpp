@@ -10,7 +10,7 @@
 #include "burr/rt/machine.h"
 #include "burr/rt/machine_check.h"
 #include "burr/rt/thread.h"
-#include "doctor/look.h"
+#include "doctor/doctor_checks.h"
 
 namespace burr::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <system_error>
 
-#include "doctor/look.h"
+#include "doctor/doctor_checks.h"
 
 namespace burr::app {
 namespace {

@@ -21,11 +21,11 @@
 #include "burr/workshop/hand_device.h"
 #include "people/run.h"
 #include "scenes/wall.h"
-#include "shared/command.h"
 #include "shared/hand_options.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
 #include "shared/setting_options.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {
@@ -206,8 +206,8 @@ Result<Unfinished> begin(const Options& options) {
   return Unfinished{*run, {}, {}, {}};
 }
 
-// given: takes the account; nullptr: it is printed.
-Status run(const Options& options, Account* given) {
+// given: takes the findings; nullptr: it is printed.
+Status run(const Options& options, CommandResult* given) {
   auto begun = begin(options);
   if (!begun) return begun.error();
   auto hand = take_hand(options, begun->run);
@@ -329,10 +329,10 @@ void add(CLI::App& app, Todo& todo) {
 
 void add_row(CLI::App& app, RowTodo& todo) {
   add_psychophysics(app, [&todo](auto options) {
-    todo.work = [options](Account& account) -> Status {
+    todo.work = [options](CommandResult& findings) -> Status {
       if (options->observer.empty())
         return error(Trouble::usage, "--observer: is missing; a row has nobody who answers");
-      return run(*options, &account);
+      return run(*options, &findings);
     };
   });
 }

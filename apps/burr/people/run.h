@@ -13,7 +13,7 @@
 
 #include "burr/base/result.h"
 #include "burr/people/experiment.h"
-#include "burr/sim/interval.h"
+#include "burr/sim/trial_interval.h"
 
 namespace burr::app {
 

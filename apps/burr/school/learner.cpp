@@ -30,11 +30,11 @@
 #include "school/practice_words.h"
 #include "school/store_command.h"
 #include "school/xapi.h"
-#include "shared/command.h"
 #include "shared/counted.h"
 #include "shared/outputs.h"
+#include "shared/subcommand.h"
 #include "shared/volume_words.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

@@ -18,10 +18,10 @@
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
 #include "school/store_command.h"
-#include "shared/command.h"
 #include "shared/counted.h"
 #include "shared/outputs.h"
-#include "shared/words.h"
+#include "shared/subcommand.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

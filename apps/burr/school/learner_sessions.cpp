@@ -15,8 +15,8 @@
 #include "school/session_of.h"
 #include "school/store_command.h"
 #include "school/xapi.h"
-#include "shared/command.h"
 #include "shared/counted.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

@@ -27,7 +27,7 @@ struct LearnerOptions {
   std::string id, recording, rubric, out, csv, title, language = "en";
   school::Decision decision;
   std::vector<std::string> ids;
-  scenario::Recipe volume;
+  scenario::BoneRecipe volume;
   bool names = false, sessions = false, overdue = false, scrub = false, all = false,
        no_reports = false;
 };

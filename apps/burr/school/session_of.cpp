@@ -91,7 +91,7 @@ const char* word_of(report::SelfMark mark) {
 }
 
 // Help takes part in these modes as long as the case's rule lets it.
-bool guided(const record::Identity& identity, const scenario::Lesson& lesson) {
+bool guided(const record::Identity& identity, const scenario::CaseLesson& lesson) {
   const bool helps =
       identity.mode == record::Mode::learn || identity.mode == record::Mode::practise;
   return helps && workshop::guided_in(identity, lesson.feedback);
@@ -148,8 +148,8 @@ school::SessionRecord record_of(const report::Scored& scored) {
 }
 
 Result<school::SessionRecord> session_of(const std::string& recording, const std::string& learner,
-                                         const std::string& rubric, const scenario::Recipe& volume,
-                                         Progress& progress) {
+                                         const std::string& rubric,
+                                         const scenario::BoneRecipe& volume, Progress& progress) {
   const std::string name = std::filesystem::path(recording).filename().string();
   if (record::being_written(recording))
     return error(

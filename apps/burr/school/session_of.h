@@ -20,7 +20,7 @@ namespace burr::app {
 [[nodiscard]] Result<school::SessionRecord> session_of(const std::string& recording,
                                                        const std::string& learner,
                                                        const std::string& rubric,
-                                                       const scenario::Recipe& volume,
+                                                       const scenario::BoneRecipe& volume,
                                                        Progress& progress);
 
 // Without file and date.

@@ -12,7 +12,7 @@
 
 #include "burr/base/result.h"
 #include "burr/school/store.h"
-#include "shared/command.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 

@@ -18,9 +18,9 @@
 #include "burr/lrs/sender.h"
 #include "burr/school/outbox.h"
 #include "school/store_command.h"
-#include "shared/command.h"
 #include "shared/counted.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

@@ -84,7 +84,7 @@ Json rounded(const std::vector<float>& values) {
   return out;
 }
 
-Json line_of(const report::ReportLine& line, const scenario::Lesson& lesson) {
+Json line_of(const report::ReportLine& line, const scenario::CaseLesson& lesson) {
   Json out = {{"force_n", rounded(line.force_n)},
               {"nearest_mm", rounded(line.nearest_mm)},
               {"farthest_mm", report::kFarthestMm},

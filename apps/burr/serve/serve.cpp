@@ -25,7 +25,7 @@
 #include "serve/school_api.h"
 #include "serve/stations.h"
 #include "shared/built_page.h"
-#include "shared/command.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

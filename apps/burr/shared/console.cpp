@@ -6,8 +6,8 @@
 #include <chrono>
 #include <string>
 
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {

@@ -1,4 +1,4 @@
-// apps/burr/shared/law_choice.h - a law of one's own, as the user named it.
+// apps/burr/shared/law_choice.h - a custom law, as the user named it.
 //
 // Thread: any.
 #pragma once

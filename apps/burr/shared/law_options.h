@@ -1,4 +1,4 @@
-// apps/burr/shared/law_options.h - the options that put a law of one's own into a session
+// apps/burr/shared/law_options.h - the options that put a custom law into a session
 // (docs/develop/how_to_add_a_force_law.md).
 #pragma once
 

@@ -24,7 +24,7 @@ Result<scenario::Rack> rack_of(const ToolOptions& options) {
 void add_tool_options(CLI::App& command, ToolOptions& options) {
   command.add_option("--tool", options.tool,
                      "a tool of the rack in place of the round burr (burr tools lists them)");
-  command.add_option("--tools", options.tools, "F.toml: tools of one's own for the rack");
+  command.add_option("--tools", options.tools, "F.toml: custom tools for the rack");
 }
 
 Status take_tool(const ToolOptions& options, tick::ServoSettings& settings) {

@@ -14,7 +14,7 @@ namespace burr::app {
 
 struct ToolOptions {
   std::string tool;   // of the rack; empty: the round burr
-  std::string tools;  // a TOML list of tools of one's own; empty: none
+  std::string tools;  // a TOML list of custom tools; empty: none
   // of the rack, in the second hand; empty: a suction tube
   std::string second = {};
   // of a case, before those of the rack

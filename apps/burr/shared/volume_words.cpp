@@ -22,7 +22,7 @@ Value taken(const std::string& option, Result<Value> read) {
 
 }  // namespace
 
-void add_volume_options(CLI::App& command, scenario::Recipe& recipe) {
+void add_volume_options(CLI::App& command, scenario::BoneRecipe& recipe) {
   const auto words = [&command](const char* option, auto take, const char* help) {
     command.add_option_function<std::string>(option, take, help)->type_name("TEXT");
   };

@@ -13,6 +13,6 @@ namespace burr::app {
 // --drop-islands-mm3 --memory-mb --read-seconds --read-memory-mb; the source itself is a positional argument of each subcommand,
 // because some accept a CASE or a recording there. An invalid value is an error of the command
 // line.
-void add_volume_options(CLI::App& command, scenario::Recipe& recipe);
+void add_volume_options(CLI::App& command, scenario::BoneRecipe& recipe);
 
 }  // namespace burr::app

@@ -41,7 +41,7 @@ bool names_a_scan(const WorkOptions& options) {
 }
 
 Status take_case(WorkOptions& options) {
-  scenario::Recipe& volume = options.volume;
+  scenario::BoneRecipe& volume = options.volume;
   if (volume.source.empty()) volume.source = "temporal-bone";
   if (names_a_case(volume.source)) {
     auto read = scenario::read_case(volume.source);
@@ -66,7 +66,7 @@ Status take_case(WorkOptions& options) {
 }
 
 void take_case(WorkOptions& options, const scenario::Case& work) {
-  scenario::Recipe& volume = options.volume;
+  scenario::BoneRecipe& volume = options.volume;
   volume = workshop::recipe_of(work, volume);
   if (options.burr_mm == 0) options.burr_mm = scenario::burr_mm(work);
   if (options.rpm == 0) options.rpm = scenario::rpm(work);
@@ -82,9 +82,9 @@ void take_case(WorkOptions& options, const scenario::Case& work) {
   options.work_case = work;
 }
 
-Result<workshop::Prepared> open_work(WorkOptions& options, Progress& progress,
-                                     const io::Scan* scan) {
-  scenario::Recipe volume = options.volume;
+Result<workshop::PreparedBone> open_work(WorkOptions& options, Progress& progress,
+                                         const io::Scan* scan) {
+  scenario::BoneRecipe volume = options.volume;
   if (bare_name(volume.source)) volume.source = scenario::phantom_source(volume.source);
   const workshop::Tool tool{options.burr_mm, options.rpm, options.kind};
   auto prepared =

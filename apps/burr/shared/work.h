@@ -29,7 +29,7 @@ struct Earlier {
 };
 
 struct WorkOptions {
-  scenario::Recipe volume;      // source: also a case or a .toml file, until take_case()
+  scenario::BoneRecipe volume;  // source: also a case or a .toml file, until take_case()
   bool keep_greys = false;      // keep the values of a grey scan, for slices
   double burr_mm = 0, rpm = 0;  // 0: those of the case, or 5 mm and 40 000
   double seconds = 0;           // of the demonstration; 0: that of the case
@@ -37,7 +37,7 @@ struct WorkOptions {
   std::string suction;          // in the window: a device for the other hand; empty: none
   std::string told_as;          // in the window: name of the published CRTK arm; empty: none
   ToolOptions tool;             // of the rack
-  LawChoice law;                // of one's own, for each session anew
+  LawChoice law;                // a custom law, for each session anew
   std::uint32_t bone = 0;       // another bone of the case (workshop/other_bone.h); 0: its own
   bool other_bones = false;     // each session draws the number, where the case has other bones
   haptics::Method touch = haptics::Method::constraint;
@@ -70,8 +70,8 @@ void take_case(WorkOptions& options, const scenario::Case& work);
 // Call it after take_case(). Sets burr_mm of the options to the size that is used, with a notice if
 // it differs (workshop/prepare.h). scan: as in workshop::open_bone(). Error: also if the case names
 // a tissue that the bone does not have.
-[[nodiscard]] Result<workshop::Prepared> open_work(WorkOptions& options, Progress& progress,
-                                                   const io::Scan* scan = nullptr);
+[[nodiscard]] Result<workshop::PreparedBone> open_work(WorkOptions& options, Progress& progress,
+                                                       const io::Scan* scan = nullptr);
 
 // Error: as take_tool(), and a law that cannot be opened, or is not fit for real time.
 [[nodiscard]] Result<sim::SessionSettings> settings_of(const WorkOptions& options, bool realtime);

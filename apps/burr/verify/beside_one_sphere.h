@@ -4,7 +4,7 @@
 // Thread: main.
 #pragma once
 
-#include "report.h"
+#include "verify_report.h"
 
 namespace burr::app {
 

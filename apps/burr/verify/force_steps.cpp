@@ -12,8 +12,8 @@
 #include "burr/phantom/build.h"
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 #include "verify.h"
 #include "workbench.h"
 
@@ -87,7 +87,7 @@ io::Scan cut_block(bool labels) {
   return scan;
 }
 
-std::unique_ptr<volume::Bone> imported(bool labels, const scenario::Recipe& recipe) {
+std::unique_ptr<volume::Bone> imported(bool labels, const scenario::BoneRecipe& recipe) {
   auto made = importing::import_bone(cut_block(labels), recipe, progress());
   return made ? std::move(made->bone) : nullptr;
 }
@@ -145,7 +145,7 @@ void formulas(VerifyReport::Part& part, Table& table) {
   }
   // a region taken out of the middle: its sides are cut by nothing but the numbers of --roi
   for (const bool labels : {true, false}) {
-    scenario::Recipe recipe;
+    scenario::BoneRecipe recipe;
     recipe.region = scenario::Region{{10, 44}, {3, 40}, {3, 25}};
     auto bone = imported(labels, recipe);
     if (bone == nullptr) {
@@ -182,7 +182,7 @@ void real_bones(const Verify& verify, VerifyReport::Part& part, Table& table) {
     }
     if (verify.quick && subject.slow) continue;
     if (interrupted()) return;
-    scenario::Recipe recipe;
+    scenario::BoneRecipe recipe;
     recipe.source = file.string();
     recipe.spacing_mm = Vec3::Constant(subject.spacing_mm);
     auto opened = workshop::open_bone(recipe, progress());

@@ -9,8 +9,8 @@
 #include "burr/phantom/build.h"
 #include "burr/tick/touch_methods.h"
 #include "scenes/strokes.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 #include "verify.h"
 
 namespace burr::app {

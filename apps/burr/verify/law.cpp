@@ -16,8 +16,8 @@
 #include "doctor/run_in_process.h"
 #include "law_trial.h"
 #include "page.h"
-#include "report.h"
-#include "shared/command.h"
+#include "shared/subcommand.h"
+#include "verify_report.h"
 
 namespace burr::app {
 namespace {
@@ -124,7 +124,7 @@ Status run(const Options& options) {
   if (seen.ended && said.is_object() && said.contains("error"))
     return error(said["error"].get<std::string>());
   VerifyReport::Part& part =
-      report.begin("law", "A law of one's own",
+      report.begin("law", "A custom law",
                    "Does a compiled force law come back whatever it is given, answer with numbers "
                    "that can be, give the same "
                    "answers to the same inputs, take little time, and give a hand no energy?");

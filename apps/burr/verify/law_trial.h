@@ -1,4 +1,4 @@
-// apps/burr/verify/law_trial.h - tries a compiled law of one's own (tick/law_v1.h): with numbers that are none, with random
+// apps/burr/verify/law_trial.h - tries a compiled custom law (tick/law_v1.h): with numbers that are none, with random
 // inputs, twice with the same, by the clock, and in closed loops with a simulated hand.
 //
 // The law runs in the process of the caller: call it in one of its own (doctor/run_in_process.h).

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "burr/device/simulated_hand.h"
-#include "burr/edit/laws/chips.h"
+#include "burr/edit/laws/chip_law.h"
 #include "burr/phantom/build.h"
 #include "burr/rt/flags.h"
 #include "burr/sim/session.h"

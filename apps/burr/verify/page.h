@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "report.h"
 #include "shared/html_page.h"
+#include "verify_report.h"
 
 namespace burr::app {
 

@@ -32,7 +32,7 @@ struct Lasting {
   double ripple = 0;  // standard deviation of the force in the last second, over its mean
   double force = 0;   // mean of the force in the last second [N]
   bool ok = false;
-  bool law_off = false;  // the law of one's own was switched off
+  bool law_off = false;  // the custom law was switched off
 };
 [[nodiscard]] Lasting last(const Pressing& one, double seconds);
 

@@ -10,8 +10,8 @@
 #include "burr/surgeon/motion.h"
 #include "burr/volume/sample.h"
 #include "burr/workshop/open_bone.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 #include "verify.h"
 #include "workbench.h"
 
@@ -158,7 +158,7 @@ void bones(const Verify& verify, VerifyReport::Part& part) {
     }
     if (verify.quick && subject.minutes > 5) continue;
     if (interrupted()) return;
-    scenario::Recipe options;
+    scenario::BoneRecipe options;
     options.source = file.string();
     options.spacing_mm = math::Vec3::Constant(subject.spacing_mm);
     auto opened = workshop::open_bone(options, progress());

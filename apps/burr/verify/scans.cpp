@@ -16,8 +16,8 @@
 #include "burr/surface/shells.h"
 #include "burr/workshop/open_bone.h"
 #include "scenes/thin_shapes.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -48,7 +48,7 @@ struct Judged {
   }
 };
 
-Result<Judged> judge(const io::Scan& scan, const scenario::Recipe& recipe) {
+Result<Judged> judge(const io::Scan& scan, const scenario::BoneRecipe& recipe) {
   auto plan = importing::plan_import(scan, recipe);
   if (!plan) return plan.error();
   Judged out;
@@ -203,7 +203,7 @@ void real(const Verify& verify, VerifyReport::Part& part) {
       part.cannot(fmt::format("{}: {} is not there", subject.name, file.string()));
       continue;
     }
-    scenario::Recipe recipe;
+    scenario::BoneRecipe recipe;
     recipe.source = file.string();
     const auto scan = io::read_scan(recipe.source, workshop::read_options(recipe), progress());
     const auto one = scan ? judge(*scan, recipe) : Result<Judged>(scan.error());

@@ -14,8 +14,8 @@
 #include "burr/math/rotation.h"
 #include "burr/math/turn.h"
 #include "burr/phantom/build.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 #include "verify.h"
 
 namespace burr::app {

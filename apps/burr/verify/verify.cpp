@@ -19,8 +19,8 @@
 #include "batch/row_command.h"
 #include "law.h"
 #include "page.h"
-#include "shared/command.h"
 #include "shared/interrupt.h"
+#include "shared/subcommand.h"
 
 namespace burr::app {
 namespace {
@@ -43,19 +43,19 @@ struct Options {
   bool quick = false, json = false;
 };
 
-// The account of a row: without the times of the parts.
-Account account_of(const VerifyReport& report) {
-  Account account;
-  account.result = nlohmann::json::parse(report.json());
-  for (nlohmann::json& part : account.result["parts"]) {
-    account.times["took_s"][part["name"].get<std::string>()] = part["took_s"];
+// The findings of a row: without the times of the parts.
+CommandResult result_of(const VerifyReport& report) {
+  CommandResult findings;
+  findings.result = nlohmann::json::parse(report.json());
+  for (nlohmann::json& part : findings.result["parts"]) {
+    findings.times["took_s"][part["name"].get<std::string>()] = part["took_s"];
     part.erase("took_s");
   }
-  return account;
+  return findings;
 }
 
-// given: takes the account, in which a check that failed is a result; nullptr: all is printed.
-Status run(const Options& options, Account* given) {
+// given: takes the findings, in which a check that failed is a result; nullptr: all is printed.
+Status run(const Options& options, CommandResult* given) {
   std::vector<Known> parts = known();
   std::sort(parts.begin(), parts.end(),
             [](const Known& a, const Known& b) { return a.place < b.place; });
@@ -81,7 +81,7 @@ Status run(const Options& options, Account* given) {
   if (!options.out.empty())
     if (Status written = report.write(options.out, page(report)); !written) return written;
   if (given != nullptr) {
-    *given = account_of(report);
+    *given = result_of(report);
   } else if (options.json) {
     fmt::print("{}\n", report.json());
   } else {
@@ -133,7 +133,7 @@ void add(CLI::App& app, Todo& todo) {
 
 void add_row(CLI::App& app, RowTodo& todo) {
   add_verify(app, [&todo](auto options) {
-    todo.work = [options](Account& account) { return run(*options, &account); };
+    todo.work = [options](CommandResult& findings) { return run(*options, &findings); };
   });
 }
 

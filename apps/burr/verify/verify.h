@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-#include "report.h"
+#include "verify_report.h"
 
 namespace burr::app {
 

@@ -44,7 +44,7 @@ class Writer {
               eyes_.recorded(), crossings_.late, info.work_case ? info.work_case->name : ""};
   }
 
-  Result<Account> write(const std::string& out, Progress& progress);
+  Result<Written> write(const std::string& out, Progress& progress);
 
  private:
   [[nodiscard]] double time_of(std::uint64_t tick) const {
@@ -64,7 +64,7 @@ class Writer {
   Eyes eyes_;
   Crossings crossings_;
   Facts facts_;
-  Account account_;
+  Written account_;
   std::vector<std::string> names_;
   std::unique_ptr<Layout> file_;
   std::unique_ptr<Pictures> pictures_;  // nullptr: none are wanted
@@ -120,7 +120,7 @@ Status Writer::sample(const record::Step& step, const math::Pose& camera) {
   return fine();
 }
 
-Result<Account> Writer::write(const std::string& out, Progress& progress) {
+Result<Written> Writer::write(const std::string& out, Progress& progress) {
   names_ = files_of(player_, out, options_);
   account_.late = crossings_.late;
   if (options_.width > 0) {
@@ -177,7 +177,7 @@ std::vector<std::string> files_of(const record::Player& player, const std::strin
   return names;
 }
 
-Result<Account> write(record::Player& player, const volume::Bone& before, const std::string& out,
+Result<Written> write(record::Player& player, const volume::Bone& before, const std::string& out,
                       const Options& options, Progress& progress) {
   if (player.end_tick() == player.first_tick())
     return error(player.path() + ": this recording holds no tick");

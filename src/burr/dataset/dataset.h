@@ -20,7 +20,7 @@
 
 namespace burr::dataset {
 
-struct Account {
+struct Written {
   std::vector<std::string> files;
   std::uint64_t ticks = 0, samples = 0;
   std::uint64_t removed = 0, added = 0;  // voxels that left the bone, that came into it
@@ -32,7 +32,7 @@ struct Account {
                                                 const std::string& out, const Options& options);
 
 // before: the bone at the first tick.
-[[nodiscard]] Result<Account> write(record::Player& player, const volume::Bone& before,
+[[nodiscard]] Result<Written> write(record::Player& player, const volume::Bone& before,
                                     const std::string& out, const Options& options,
                                     Progress& progress);
 

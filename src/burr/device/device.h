@@ -10,7 +10,7 @@
 #include <string>
 
 #include "burr/base/result.h"
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/rt/clock.h"
 #include "burr/rt/rt.h"
 #include "burr/rt/stats.h"

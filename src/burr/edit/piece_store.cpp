@@ -47,7 +47,7 @@ struct PieceStore::Kept {
   std::vector<std::shared_ptr<const Place>> places;  // the first: where it came free
 };
 
-struct PieceStore::Ready {
+struct PieceStore::ToAccept {
   std::shared_ptr<Kept> kept;
   std::shared_ptr<const Place> place;
   std::uint32_t number = 0;
@@ -251,7 +251,7 @@ Result<PieceStore::Found> PieceStore::find(const Bone& bone, const Vec3& p, doub
 
 // Where the piece lies, and which it is.
 Result<const PieceStore::Place*> PieceStore::look_up(const Bone& bone, const PieceMove& move,
-                                                     Ready& ready) const {
+                                                     ToAccept& ready) const {
   ready.number = move.piece;
   if (move.piece < kept_.size()) {
     ready.kept = kept_[move.piece];
@@ -270,12 +270,12 @@ Result<const PieceStore::Place*> PieceStore::look_up(const Bone& bone, const Pie
   return ready.kept->places.front().get();
 }
 
-Result<PieceStore::Prepared> PieceStore::prepare_lift(const Bone& bone,
-                                                      const PieceMove& move) const {
-  Prepared out;
+Result<PieceStore::NewBricks> PieceStore::prepare_lift(const Bone& bone,
+                                                       const PieceMove& move) const {
+  NewBricks out;
   const auto bricks = std::make_shared<MovedBricks>();
   out.bricks = bricks;
-  out.ready = std::make_shared<Ready>();
+  out.ready = std::make_shared<ToAccept>();
   const auto from = look_up(bone, move, *out.ready);
   if (!from) return from.error();
   const Kept& kept = *out.ready->kept;
@@ -297,12 +297,12 @@ Result<PieceStore::Prepared> PieceStore::prepare_lift(const Bone& bone,
   return out;
 }
 
-Result<PieceStore::Prepared> PieceStore::prepare(const Bone& bone, const PieceMove& move) const {
-  Prepared out;
+Result<PieceStore::NewBricks> PieceStore::prepare(const Bone& bone, const PieceMove& move) const {
+  NewBricks out;
   const auto bricks = std::make_shared<MovedBricks>();
   out.bricks = bricks;
-  out.ready = std::make_shared<Ready>();
-  Ready& ready = *out.ready;
+  out.ready = std::make_shared<ToAccept>();
+  ToAccept& ready = *out.ready;
   Work work(bone);
   if (move.lifted) {  // the bone is without it already
     if (move.piece >= kept_.size()) return error("there is no such piece in the hand");
@@ -346,8 +346,8 @@ Result<std::shared_ptr<const MovedBricks>> PieceStore::prepare_splinter(
   return std::shared_ptr<const MovedBricks>(bricks);
 }
 
-void PieceStore::accept(const Prepared& prepared) {
-  const Ready& ready = *prepared.ready;
+void PieceStore::accept(const NewBricks& prepared) {
+  const ToAccept& ready = *prepared.ready;
   if (ready.number == kept_.size()) kept_.push_back(ready.kept);
   if (ready.place) {
     ready.kept->places.push_back(ready.place);

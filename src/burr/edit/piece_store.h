@@ -61,25 +61,25 @@ class PieceStore {
   [[nodiscard]] Result<Found> find(const volume::Bone& bone, const math::Vec3& p,
                                    double within = 2e-3) const;
 
-  struct Ready;  // what accept() keeps
-  struct Prepared {
+  struct ToAccept;  // what accept() keeps
+  struct NewBricks {
     std::shared_ptr<const MovedBricks> bricks;  // does not move in memory
-    std::shared_ptr<Ready> ready;
+    std::shared_ptr<ToAccept> ready;
   };
   // The bricks of this move on this bone; fills in move.bricks of the result's hash. move.writes is
   // only passed on. Error: there is no such piece, it was cut since, or it would leave the volume.
-  [[nodiscard]] Result<Prepared> prepare(const volume::Bone& bone, const PieceMove& move) const;
+  [[nodiscard]] Result<NewBricks> prepare(const volume::Bone& bone, const PieceMove& move) const;
   // The bricks of the bone without this piece, and the piece as a body (edit/piece_body.h). The next
   // move of it says `lifted`. Fills in move.bricks and move.body of the result. Errors as prepare(), and
   // a piece that is too thin to be held.
-  [[nodiscard]] Result<Prepared> prepare_lift(const volume::Bone& bone,
-                                              const PieceMove& move) const;
+  [[nodiscard]] Result<NewBricks> prepare_lift(const volume::Bone& bone,
+                                               const PieceMove& move) const;
   // The bricks of the bone without the splinter (is_dust()) in which the move's seed lies: the command
   // `take_splinter`. Fills in what the bone loses. Error: no splinter lies there any more.
   [[nodiscard]] Result<std::shared_ptr<const MovedBricks>> prepare_splinter(
       const volume::Bone& bone, const PieceMove& move) const;
   // The servo has obeyed. Not of a splinter.
-  void accept(const Prepared& prepared);
+  void accept(const NewBricks& prepared);
 
   // A piece that was moved, as it lies in `bone`; none: not where this store put it.
   struct Moved {
@@ -115,7 +115,7 @@ class PieceStore {
   struct Kept;
   struct Place;
   [[nodiscard]] Result<const Place*> look_up(const volume::Bone& bone, const PieceMove& move,
-                                             Ready& ready) const;
+                                             ToAccept& ready) const;
   [[nodiscard]] const Place* place_of(const volume::Bone& bone, const Kept& kept) const;
   [[nodiscard]] std::unique_ptr<volume::Bone> taken_out(const volume::Bone& bone, bool back) const;
   // specks: PieceMove::specks

@@ -38,7 +38,8 @@ void add_shape(const scenario::Shape& shape, const std::string& name, std::vecto
   }
 }
 
-void add_named(const std::string& name, const scenario::Lesson& lesson, std::vector<Ring>& rings) {
+void add_named(const std::string& name, const scenario::CaseLesson& lesson,
+               std::vector<Ring>& rings) {
   const scenario::CaseRegion* region = lesson.region(name);
   if (region != nullptr)
     for (const scenario::Shape& shape : region->add) add_shape(shape, name, rings);
@@ -50,7 +51,7 @@ void add_named(const std::string& name, const scenario::Lesson& lesson, std::vec
 
 }  // namespace
 
-std::vector<Ring> rings_of(const scenario::Step& step, const scenario::Lesson& lesson) {
+std::vector<Ring> rings_of(const scenario::Step& step, const scenario::CaseLesson& lesson) {
   std::vector<Ring> rings;
   for (const std::string& name : step.show) add_named(name, lesson, rings);
   if (step.show.empty() && !step.region.empty()) add_named(step.region, lesson, rings);
@@ -58,7 +59,7 @@ std::vector<Ring> rings_of(const scenario::Step& step, const scenario::Lesson& l
 }
 
 std::vector<volume::TissueId> lit_tissues(const scenario::Step& step,
-                                          const scenario::Lesson& lesson,
+                                          const scenario::CaseLesson& lesson,
                                           const volume::TissueTable& tissues) {
   std::vector<std::string> names = step.show;
   if (names.empty() && !step.structure.empty()) names.push_back(step.structure);

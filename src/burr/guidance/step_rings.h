@@ -23,11 +23,11 @@ struct Ring {
 // The landmarks and regions among `show` of a step, its region if it shows nothing. Parts of a region
 // that are defined by structures have no ring.
 [[nodiscard]] std::vector<Ring> rings_of(const scenario::Step& step,
-                                         const scenario::Lesson& lesson);
+                                         const scenario::CaseLesson& lesson);
 
 // The tissues of the structures among `show`, of its own structure if it shows nothing.
 [[nodiscard]] std::vector<volume::TissueId> lit_tissues(const scenario::Step& step,
-                                                        const scenario::Lesson& lesson,
+                                                        const scenario::CaseLesson& lesson,
                                                         const volume::TissueTable& tissues);
 
 // The colour of such a tissue: red, green, blue.

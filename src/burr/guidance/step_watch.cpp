@@ -15,7 +15,7 @@ constexpr int kNice = 10;
 
 }  // namespace
 
-StepWatch::StepWatch(volume::Bone& bone, const scenario::Lesson& lesson)
+StepWatch::StepWatch(volume::Bone& bone, const scenario::CaseLesson& lesson)
     : bone_(bone), changed_(bone.add_watcher()), lesson_(lesson) {
   bool measured = false;
   for (const scenario::Step& step : lesson_.steps) measured = measured || step.done.has_value();

@@ -31,7 +31,7 @@ class StepWatch {
   static constexpr std::chrono::seconds kRest{3};  // from the end of a measurement to the next
 
   // bone: must outlive this object.
-  StepWatch(volume::Bone& bone, const scenario::Lesson& lesson);
+  StepWatch(volume::Bone& bone, const scenario::CaseLesson& lesson);
   ~StepWatch();
   StepWatch(const StepWatch&) = delete;
   StepWatch& operator=(const StepWatch&) = delete;
@@ -55,7 +55,7 @@ class StepWatch {
 
   volume::Bone& bone_;
   rt::ChangedBits& changed_;
-  scenario::Lesson lesson_;
+  scenario::CaseLesson lesson_;
   std::unique_ptr<volume::Bone> before_;
   std::mutex mutex_;
   std::condition_variable_any wake_;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "burr/base/progress.h"
-#include "burr/importing/plan.h"
+#include "burr/importing/import_plan.h"
 
 namespace burr::importing {
 

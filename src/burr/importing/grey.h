@@ -52,7 +52,7 @@ struct NewGrid {
   math::Vec3 scale = math::Vec3::Ones(), first = math::Vec3::Zero();
   // values below are left as the cubic gives them
   std::int16_t level = std::numeric_limits<std::int16_t>::min();
-  bool faithful = true;  // false: as for Recipe::bone_law 1, overshoots and lost voxels stay
+  bool faithful = true;  // false: as for BoneRecipe::bone_law 1, overshoots and lost voxels stay
 };
 
 // Resamples with a Catmull-Rom kernel, widened where the new grid is coarser. On a finer axis a new

@@ -4,27 +4,27 @@
 #include <new>
 #include <utility>
 
+#include "burr/importing/import_plan.h"
+#include "burr/importing/imported_shape.h"
 #include "burr/importing/keep_greys.h"
-#include "burr/importing/plan.h"
-#include "burr/importing/shape.h"
 #include "burr/volume/volume_of.h"
 
 namespace burr::importing {
 namespace {
 
-bool keeps_all(const scenario::Recipe& recipe) {
+bool keeps_all(const scenario::BoneRecipe& recipe) {
   return recipe.keep.all() && recipe.drop_islands_mm3 <= 0;
 }
 
 }  // namespace
 
-Result<ImportSummary> plan_import(const io::Scan& scan, const scenario::Recipe& recipe) {
+Result<ImportSummary> plan_import(const io::Scan& scan, const scenario::BoneRecipe& recipe) {
   auto plan = make_plan(scan, recipe);
   if (!plan) return plan.error();
   return std::move(plan->summary);
 }
 
-Result<FoundParts> parts_of(const io::Scan& scan, const scenario::Recipe& recipe,
+Result<FoundParts> parts_of(const io::Scan& scan, const scenario::BoneRecipe& recipe,
                             Progress& progress) {
   try {
     const auto plan = make_plan(scan, recipe);
@@ -39,7 +39,7 @@ Result<FoundParts> parts_of(const io::Scan& scan, const scenario::Recipe& recipe
   }
 }
 
-Status count_parts(const io::Scan& scan, const scenario::Recipe& recipe, Progress& progress,
+Status count_parts(const io::Scan& scan, const scenario::BoneRecipe& recipe, Progress& progress,
                    ImportSummary& summary) {
   const auto found = parts_of(scan, recipe, progress);
   if (!found) return found.error();
@@ -47,7 +47,8 @@ Status count_parts(const io::Scan& scan, const scenario::Recipe& recipe, Progres
   return chosen ? fine() : Status(chosen.error());
 }
 
-Result<std::vector<TissueFound>> labels_of(const io::Scan& scan, const scenario::Recipe& recipe) {
+Result<std::vector<TissueFound>> labels_of(const io::Scan& scan,
+                                           const scenario::BoneRecipe& recipe) {
   std::vector<TissueFound> all;
   if (scan.labels.empty()) return all;
   const auto materials = materials_of(recipe);
@@ -71,7 +72,7 @@ Result<std::vector<TissueFound>> labels_of(const io::Scan& scan, const scenario:
   return all;
 }
 
-Result<Imported> import_bone(const io::Scan& scan, const scenario::Recipe& recipe,
+Result<Imported> import_bone(const io::Scan& scan, const scenario::BoneRecipe& recipe,
                              Progress& progress, bool with_greys) {
   try {
     auto plan = make_plan(scan, recipe);

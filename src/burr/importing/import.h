@@ -14,7 +14,7 @@
 //
 // Units: mm for what people type and read, HU or the file's own unit for values; Bone is SI.
 // Thread: any; uses up to two workers; the result does not depend on their number.
-// Memory: the scan, twice 2 bytes a voxel while working, then the bone. See Recipe::memory_mb.
+// Memory: the scan, twice 2 bytes a voxel while working, then the bone. See BoneRecipe::memory_mb.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/importing/import_summary.h"
-#include "burr/importing/questions.h"
+#include "burr/importing/scan_questions.h"
 #include "burr/io/scan.h"
 #include "burr/scenario/recipe.h"
 #include "burr/volume/bone.h"
@@ -42,24 +42,24 @@ struct Imported {
 
 // Makes all decisions of an import without building anything.
 [[nodiscard]] Result<ImportSummary> plan_import(const io::Scan& scan,
-                                                const scenario::Recipe& recipe);
+                                                const scenario::BoneRecipe& recipe);
 
 // The separate parts of the bone that an import would make, before any is removed, and where they
 // lie; choose_parts() says what the recipe removes. Takes the time of an import: only the finished
 // surface says how much each part encloses.
-[[nodiscard]] Result<FoundParts> parts_of(const io::Scan& scan, const scenario::Recipe& recipe,
+[[nodiscard]] Result<FoundParts> parts_of(const io::Scan& scan, const scenario::BoneRecipe& recipe,
                                           Progress& progress);
 // The same for a plan: fills `parts` of the summary and adds to its notices.
-[[nodiscard]] Status count_parts(const io::Scan& scan, const scenario::Recipe& recipe,
+[[nodiscard]] Status count_parts(const io::Scan& scan, const scenario::BoneRecipe& recipe,
                                  Progress& progress, ImportSummary& summary);
 
 // Every label that occurs in a label map, and the tissue it becomes; labels that become air have id
 // 0. Empty for a grey scan.
 [[nodiscard]] Result<std::vector<TissueFound>> labels_of(const io::Scan& scan,
-                                                         const scenario::Recipe& recipe);
+                                                         const scenario::BoneRecipe& recipe);
 
 // keep_greys: of a grey scan, to be looked at.
-[[nodiscard]] Result<Imported> import_bone(const io::Scan& scan, const scenario::Recipe& recipe,
+[[nodiscard]] Result<Imported> import_bone(const io::Scan& scan, const scenario::BoneRecipe& recipe,
                                            Progress& progress, bool keep_greys = false);
 
 }  // namespace burr::importing

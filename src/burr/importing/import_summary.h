@@ -34,7 +34,7 @@ struct ImportSummary {
   math::Ijk roi_from = {0, 0, 0};  // in Scan's voxels
   math::Ijk roi_size = {0, 0, 0};
   math::Ijk size = {0, 0, 0};  // cubic voxels of the region; the bone's grid has layers of air
-                               // around them where bone reaches the border (Recipe::margin)
+                               // around them where bone reaches the border (BoneRecipe::margin)
   double voxel_mm = 0;
   double iso = 0;  // of grey scans
   bool iso_by_otsu = false;

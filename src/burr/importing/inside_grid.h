@@ -28,7 +28,7 @@ struct InsideGrid {
   // Layers of air that the bone's grid has at both ends of each axis around these voxels. There the
   // bone ends in a flat face half a voxel beyond the last voxel; without them the field breaks off.
   math::Ijk margin = {0, 0, 0};
-  int law = 2;  // Recipe::bone_law
+  int law = 2;  // BoneRecipe::bone_law
   [[nodiscard]] bool inside(std::size_t v) const {
     if (grey != nullptr) return static_cast<float>(grey[v]) >= iso;
     return share != nullptr ? share[v] >= 128 : solid[labels[v]];

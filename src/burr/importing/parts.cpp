@@ -258,7 +258,7 @@ std::optional<Parts> find_parts(const Ijk& size, const InsideRow& inside, Progre
   return parts;
 }
 
-Result<ChosenParts> choose_parts(const Parts& parts, const scenario::Recipe& recipe,
+Result<ChosenParts> choose_parts(const Parts& parts, const scenario::BoneRecipe& recipe,
                                  const Place& place) {
   ChosenParts out;
   PartsFound& found = out.found;

@@ -85,7 +85,8 @@ struct ChosenParts {
 
 // What recipe.keep and recipe.drop_islands_mm3 say of these parts. Error: a point that is not in
 // bone, or nothing that is left.
-[[nodiscard]] Result<ChosenParts> choose_parts(const Parts& parts, const scenario::Recipe& recipe,
+[[nodiscard]] Result<ChosenParts> choose_parts(const Parts& parts,
+                                               const scenario::BoneRecipe& recipe,
                                                const Place& place);
 
 // Gives the voxels of the parts that are not kept the mean value of the voxels around their part;

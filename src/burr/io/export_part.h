@@ -16,7 +16,7 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
-#include "burr/io/write/frame.h"
+#include "burr/io/write/mesh_frame.h"
 #include "burr/io/write/seg_options.h"
 #include "burr/surface/shells.h"
 #include "burr/volume/bone.h"

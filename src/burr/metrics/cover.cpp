@@ -5,7 +5,7 @@
 
 #include "burr/base/check.h"
 #include "burr/math/sums.h"
-#include "burr/metrics/look.h"
+#include "burr/metrics/look_directions.h"
 #include "burr/metrics/solidity.h"
 #include "burr/rt/thread.h"
 

@@ -3,7 +3,7 @@
 //     tau(s) = min over looks w through the cavity of   integral sigma_after(s + l w) dl
 //     t(s)   = max(1/2, n . w) tau(s)                   w: the look that gave tau
 //
-// s: a sample of the structure's surface, n its normal; the looks are those of look.h; sigma and rho
+// s: a sample of the structure's surface, n its normal; the looks are those of look_directions.h; sigma and rho
 // are those of solidity.h. A look w goes through the cavity if it crosses removed material: integral
 // of rho at least w0 = max(1 mm, 2 h). Without this condition half of a nerve is "found" before the
 // first cut, because nerves lie in canals and beside air. No such look: tau and t are infinite.
@@ -25,8 +25,8 @@
 
 #include "burr/math/vec3.h"
 #include "burr/metrics/measured.h"
-#include "burr/metrics/patch.h"
 #include "burr/metrics/region.h"
+#include "burr/metrics/structure_patch.h"
 #include "burr/metrics/voxel_set.h"
 #include "burr/volume/bone.h"
 

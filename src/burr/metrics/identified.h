@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "burr/math/vec3.h"
-#include "burr/metrics/course.h"
 #include "burr/metrics/cover.h"
 #include "burr/metrics/measured.h"
+#include "burr/metrics/tube_course.h"
 
 namespace burr::metrics {
 

@@ -13,7 +13,7 @@
 #include "burr/base/check.h"
 #include "burr/metrics/distance_map.h"
 #include "burr/metrics/identified.h"
-#include "burr/metrics/look.h"
+#include "burr/metrics/look_directions.h"
 #include "burr/metrics/solidity.h"
 #include "burr/rt/thread.h"
 #include "burr/volume/volume_of.h"

@@ -15,7 +15,7 @@
 #include "burr/math/sums.h"
 #include "burr/metrics/distance_map.h"
 #include "burr/metrics/identified.h"
-#include "burr/metrics/look.h"
+#include "burr/metrics/look_directions.h"
 #include "burr/metrics/solidity.h"
 
 namespace burr::metrics {

@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include "burr/metrics/course.h"
 #include "burr/metrics/measured.h"
 #include "burr/metrics/strokes.h"
+#include "burr/metrics/tube_course.h"
 
 namespace burr::metrics {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "burr/metrics/cover.h"
-#include "burr/metrics/patch.h"
 #include "burr/metrics/solidity.h"
+#include "burr/metrics/structure_patch.h"
 
 namespace burr::metrics {
 namespace {

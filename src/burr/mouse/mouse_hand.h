@@ -31,7 +31,7 @@ class MouseHand final : public device::Device {
     double pedal = 0;  // 0..1
     double pace = kMousePace;
     bool valid = true;  // false: the position of the hand is not known
-    // The hand is set down there at once and feels nothing (device/hand.h, kHovers).
+    // The hand is set down there at once and feels nothing (device/hand_state.h, kHovers).
     bool hovers = false;
   };
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
-#include "burr/record/mcap/bytes.h"
+#include "burr/record/mcap/mcap_bytes.h"
 #include "burr/volume/bone.h"
 
 namespace burr::record {

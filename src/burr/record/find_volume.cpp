@@ -14,7 +14,7 @@
 #include <set>
 
 #include "burr/base/hash.h"
-#include "burr/record/mcap/bytes.h"
+#include "burr/record/mcap/mcap_bytes.h"
 #include "burr/record/scan_list.h"
 
 namespace burr::record {

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "burr/record/mcap/bytes.h"
+#include "burr/record/mcap/mcap_bytes.h"
 
 namespace burr::record::protobuf {
 

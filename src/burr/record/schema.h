@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "burr/record/mcap/bytes.h"
+#include "burr/record/mcap/mcap_bytes.h"
 #include "burr/tick/rows.h"
 
 namespace burr::record {

@@ -217,7 +217,7 @@ bool get_old_recipe(const json& volume, VolumeInfo& info, std::string& missing) 
   if (!get_count(volume, "reserve_bricks", reserve)) return wrong("reserve_bricks");
   if (!get_number_object(part(volume, "numbers"), numbers)) return wrong("numbers");
   if (!get_word_object(part(volume, "words"), words)) return wrong("words");
-  scenario::Recipe& recipe = info.recipe;
+  scenario::BoneRecipe& recipe = info.recipe;
   recipe.margin = false;
   recipe.check_values = false;
   recipe.check_scan = false;
@@ -320,7 +320,7 @@ Status check(const SessionInfo& info) {
     if (Status good = check_fields(info.second->numbers, {{"device", info.second->device}});
         !good.ok())
       return good;
-  const scenario::Recipe& recipe = info.volume.recipe;
+  const scenario::BoneRecipe& recipe = info.volume.recipe;
   if (Status good = check_fields({{"voxel_mm", recipe.voxel_mm},
                                   {"iso", recipe.iso.value_or(0)},
                                   {"smooth", recipe.smooth},

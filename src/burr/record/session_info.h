@@ -40,8 +40,8 @@ struct VolumeInfo {
   volume::Grid grid;
   volume::TissueTable tissues;
   bool has_intensity = false;
-  std::string format;       // "NRRD", "formula"
-  scenario::Recipe recipe;  // scenario::without_paths(): how it was made
+  std::string format;           // "NRRD", "formula"
+  scenario::BoneRecipe recipe;  // scenario::without_paths(): how it was made
 };
 
 // The case of the session, so that a score can be worked out from the recording and the bone alone.

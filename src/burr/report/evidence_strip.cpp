@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "burr/base/markup.h"
-#include "burr/metrics/course.h"
 #include "burr/metrics/region.h"
 #include "burr/metrics/stroke_direction.h"
+#include "burr/metrics/tube_course.h"
 #include "burr/report/report_words.h"
 #include "burr/words/words.h"
 

@@ -36,7 +36,7 @@ class OneShare final : public Progress {
 }  // namespace
 
 Result<Report> marked(const std::string& recording, const std::string& rubric,
-                      const scenario::Recipe& volume, Progress& progress) {
+                      const scenario::BoneRecipe& volume, Progress& progress) {
   auto judged = judged_by(recording, rubric);
   if (!judged) return judged.error();
   ReportSettings settings;

@@ -18,6 +18,6 @@ namespace burr::report {
 // rubric: empty for the built-in one of the recording's case. volume: where the bone is, if burr does
 // not find it.
 [[nodiscard]] Result<Report> marked(const std::string& recording, const std::string& rubric,
-                                    const scenario::Recipe& volume, Progress& progress);
+                                    const scenario::BoneRecipe& volume, Progress& progress);
 
 }  // namespace burr::report

@@ -65,7 +65,7 @@ bool point_of(const std::string& text, Vec3& point) {
 }
 
 std::vector<MovedPiece> moved_pieces(const edit::PieceStore& store, const volume::Bone& bone,
-                                     const scenario::Lesson* lesson) {
+                                     const scenario::CaseLesson* lesson) {
   std::vector<MovedPiece> all;
   const std::vector<edit::PieceStore::Moved> moved = store.moved(bone);
   if (const auto lifted = store.out(bone)) {
@@ -94,7 +94,7 @@ std::vector<MovedPiece> moved_pieces(const edit::PieceStore& store, const volume
 }
 
 Result<MovedIn> moved_pieces_of(record::Player& player, volume::Bone& bone,
-                                const scenario::Lesson* lesson, double at_s) {
+                                const scenario::CaseLesson* lesson, double at_s) {
   auto store = sim::moved_in(player, bone, at_s);
   if (!store) return store.error();
   const Status there = player.bone_at(at_s < 0 ? player.seconds() : at_s, bone);

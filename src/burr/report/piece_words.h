@@ -42,7 +42,7 @@ struct MovedPiece {
 // All of them. lesson: nullptr without a case.
 [[nodiscard]] std::vector<MovedPiece> moved_pieces(const edit::PieceStore& store,
                                                    const volume::Bone& bone,
-                                                   const scenario::Lesson* lesson = nullptr);
+                                                   const scenario::CaseLesson* lesson = nullptr);
 // As one JSON array.
 [[nodiscard]] std::string pieces_json(const std::vector<MovedPiece>& pieces);
 // A line for each.
@@ -55,6 +55,6 @@ struct MovedIn {
   std::vector<MovedPiece> pieces;
 };
 [[nodiscard]] Result<MovedIn> moved_pieces_of(record::Player& player, volume::Bone& bone,
-                                              const scenario::Lesson* lesson, double at_s = -1);
+                                              const scenario::CaseLesson* lesson, double at_s = -1);
 
 }  // namespace burr::report

@@ -28,7 +28,7 @@ math::Aabb removed_box(const volume::Bone& before, const volume::Bone& after) {
   return box;
 }
 
-Vec3 towards_surgeon(const scenario::Lesson& lesson, const scenario::Case& work) {
+Vec3 towards_surgeon(const scenario::CaseLesson& lesson, const scenario::Case& work) {
   const Vec3 out = !lesson.approach.empty() ? lesson.approach.front()
                    : work.into              ? Vec3(-*work.into)
                                             : Vec3::UnitZ();

@@ -35,7 +35,7 @@ struct ProductView {
 [[nodiscard]] math::Aabb removed_box(const volume::Bone& before, const volume::Bone& after);
 
 // The unit vector from the bone to the surgeon.
-[[nodiscard]] math::Vec3 towards_surgeon(const scenario::Lesson& lesson,
+[[nodiscard]] math::Vec3 towards_surgeon(const scenario::CaseLesson& lesson,
                                          const scenario::Case& work);
 
 // Looks at the target from there; height: of what is seen at the target.

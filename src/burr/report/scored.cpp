@@ -41,7 +41,7 @@ Status rubric_fits(const scenario::Case& work) {
   return lesson ? fine() : lesson.error();
 }
 
-Result<scenario::Lesson> lesson_for(const scenario::Case& work, const scoring::Rubric& rubric) {
+Result<scenario::CaseLesson> lesson_for(const scenario::Case& work, const scoring::Rubric& rubric) {
   auto lesson = workshop::placed_lesson(work);
   if (!lesson) return lesson.error();
   if (const Status fits = scoring::check(rubric, *lesson); !fits) return fits.error();
@@ -61,7 +61,7 @@ Result<Judged> judged_by(const std::string& recording, const std::string& rubric
   return Judged{std::move(*player), std::move(*work), std::move(*read), std::move(*lesson)};
 }
 
-Result<Scored> scored(Judged judged, const scenario::Recipe& volume, Progress& progress) {
+Result<Scored> scored(Judged judged, const scenario::BoneRecipe& volume, Progress& progress) {
   record::Player& player = *judged.player;
   auto before = workshop::bone_of(player, volume, progress);
   if (!before) return before.error();

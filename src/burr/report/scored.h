@@ -22,15 +22,15 @@
 namespace burr::report {
 
 // The lesson of a case with its landmarks placed; the rubric fits it.
-[[nodiscard]] Result<scenario::Lesson> lesson_for(const scenario::Case& work,
-                                                  const scoring::Rubric& rubric);
+[[nodiscard]] Result<scenario::CaseLesson> lesson_for(const scenario::Case& work,
+                                                      const scoring::Rubric& rubric);
 
 // A recording and what it is judged by.
 struct Judged {
   std::unique_ptr<record::Player> player;
   scenario::Case work;
   scoring::Rubric rubric;
-  scenario::Lesson lesson;
+  scenario::CaseLesson lesson;
 };
 // Error: the rubric that the case names cannot be read, is for another case, or asks for what the case
 // does not have. Fine without such a rubric.
@@ -48,7 +48,7 @@ struct Scored {
   std::vector<MovedPiece> pieces = {};
 };
 // volume: where the bone is, if burr does not find it.
-[[nodiscard]] Result<Scored> scored(Judged judged, const scenario::Recipe& volume,
+[[nodiscard]] Result<Scored> scored(Judged judged, const scenario::BoneRecipe& volume,
                                     Progress& progress);
 
 }  // namespace burr::report

@@ -31,7 +31,7 @@ enum Flag : std::uint32_t {
   kFlagGuarded = 1U << 16,    // the energy guard damped the hand
   kFlagStalled = 1U << 17,    // the spindle stands still: the bone holds it
   kFlagShaft = 1U << 18,      // a part of the tool that never cuts rests on bone
-  kFlagLaw = 1U << 19,  // a law of one's own gave what cannot be: it is off, no force of touch
+  kFlagLaw = 1U << 19,        // a custom law gave what cannot be: it is off, no force of touch
 };
 
 }  // namespace burr::rt

@@ -10,7 +10,7 @@
 
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
-#include "burr/scenario/built_in.h"
+#include "burr/scenario/built_in_cases.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scenario/rack.h"
 #include "burr/scenario/read_lesson.h"
@@ -40,7 +40,7 @@ void read_burr(Reader& reader, Case& out) {
 }
 
 // As it stands; workshop/case_session.h checks it by the table of settings, of which this room knows nothing.
-void read_session(Reader& reader, SessionWish& out) {
+void read_session(Reader& reader, CaseSettings& out) {
   reader.each_given([&](std::string_view word, base::Given value, std::uint32_t line) {
     out.fields.push_back({std::string(word), std::move(value), line});
   });
@@ -183,7 +183,7 @@ Result<Case> parse_case(std::string_view text, std::string_view file) {
   std::optional<Error> wrong;
   Reader reader(*table, std::string(file), "", wrong);
   read_all(reader, out);
-  Lesson lesson;  // only to find its mistakes now: lesson_of() reads it again from the text
+  CaseLesson lesson;  // only to find its mistakes now: lesson_of() reads it again from the text
   read_lesson(reader, lesson);
   if (wrong) return *wrong;
   out.text = without_paths(text, *table);

@@ -26,7 +26,7 @@ namespace burr::scenario {
 // How a session on the case is set, [session]: settings by their words and in the units of persons
 // (docs/use/settings.md), so that one file gives one hash wherever it is run. What is left out is as usual.
 // Here they are as the file has them; workshop::take_session() knows which there are and what they may be.
-struct SessionWish {
+struct CaseSettings {
   struct Field {
     std::string word;
     base::Given value;
@@ -67,7 +67,7 @@ struct Case {
   std::vector<RackTool> own_tools;
   // None: the case has no [session]. With it, diameter, speed and voxels are those of the file to the
   // last bit (burr_mm() and so on); without it they keep the last bit that they always had.
-  std::optional<SessionWish> session;
+  std::optional<CaseSettings> session;
   double file_burr_mm = 0, file_rpm = 0, file_voxel_mm = 0;  // as the file has them
 
   // A .toml file (relative to the folder of the case file): the rubric by which work on this case is

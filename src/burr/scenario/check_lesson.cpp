@@ -14,7 +14,7 @@ namespace {
 
 class Checker {
  public:
-  Checker(Reader& reader, const Lesson& lesson)
+  Checker(Reader& reader, const CaseLesson& lesson)
       : reader_(reader),
         lesson_(lesson),
         structures_(places_of(lesson.structures, &Structure::name)),
@@ -146,12 +146,12 @@ class Checker {
   }
 
   Reader& reader_;
-  const Lesson& lesson_;
+  const CaseLesson& lesson_;
   const Places structures_, regions_, steps_;
 };
 
 }  // namespace
 
-void check_names(Reader& reader, const Lesson& lesson) { Checker(reader, lesson).all(); }
+void check_names(Reader& reader, const CaseLesson& lesson) { Checker(reader, lesson).all(); }
 
 }  // namespace burr::scenario

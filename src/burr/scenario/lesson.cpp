@@ -19,7 +19,7 @@ const Item* named(const std::vector<Item>& all, std::string_view name, std::stri
 // Looks up the names of a lesson's landmarks; the first name that nobody has is an error.
 class Placer {
  public:
-  Placer(Lesson& lesson, const std::string& file) : lesson_(lesson), file_(file) {}
+  Placer(CaseLesson& lesson, const std::string& file) : lesson_(lesson), file_(file) {}
 
   [[nodiscard]] Status all() {
     for (CaseRegion& region : lesson_.regions)
@@ -75,7 +75,7 @@ class Placer {
     if (!wrong_) wrong_ = error(fmt::format("{}: line {}: {}", file_, line, what));
   }
 
-  Lesson& lesson_;
+  CaseLesson& lesson_;
   const std::string& file_;
   std::optional<Error> wrong_;
 };
@@ -123,19 +123,19 @@ const char* word_of(Intact intact) {
   return "";
 }
 
-const Landmark* Lesson::landmark(std::string_view name) const {
+const Landmark* CaseLesson::landmark(std::string_view name) const {
   return named(landmarks, name, &Landmark::name);
 }
-const CaseRegion* Lesson::region(std::string_view name) const {
+const CaseRegion* CaseLesson::region(std::string_view name) const {
   return named(regions, name, &CaseRegion::name);
 }
-const Structure* Lesson::structure(std::string_view name) const {
+const Structure* CaseLesson::structure(std::string_view name) const {
   return named(structures, name, &Structure::name);
 }
-const Step* Lesson::step(std::string_view id) const { return named(steps, id, &Step::id); }
+const Step* CaseLesson::step(std::string_view id) const { return named(steps, id, &Step::id); }
 
-Result<Lesson> place(Lesson lesson, std::span<const Landmark> of_the_bone,
-                     const std::string& file) {
+Result<CaseLesson> place(CaseLesson lesson, std::span<const Landmark> of_the_bone,
+                         const std::string& file) {
   for (const Landmark& one : of_the_bone) {
     const auto own = std::find_if(lesson.landmarks.begin(), lesson.landmarks.end(),
                                   [&](const Landmark& each) { return each.name == one.name; });

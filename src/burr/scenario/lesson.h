@@ -166,7 +166,7 @@ struct PlannedPiece {
   std::uint32_t line = 0;
 };
 
-struct Lesson {
+struct CaseLesson {
   int format = 1;
   Texts title, description;
   std::vector<math::Vec3> approach;  // unit, from the bone to the surgeon
@@ -189,7 +189,7 @@ struct Lesson {
 // The lesson with the landmarks of the bone added, and a point wherever a landmark is named. The
 // case's own landmarks come first; one with a title alone takes the points of the bone's, and goes if
 // the bone has none of its name. Error: a landmark that is named and that neither has.
-[[nodiscard]] Result<Lesson> place(Lesson lesson, std::span<const Landmark> of_the_bone,
-                                   const std::string& file);
+[[nodiscard]] Result<CaseLesson> place(CaseLesson lesson, std::span<const Landmark> of_the_bone,
+                                       const std::string& file);
 
 }  // namespace burr::scenario

@@ -9,14 +9,16 @@
 
 namespace burr::scenario {
 
-Result<Lesson> lesson_of(const Case& work) { return parse_lesson(work.text, work.name + ".toml"); }
+Result<CaseLesson> lesson_of(const Case& work) {
+  return parse_lesson(work.text, work.name + ".toml");
+}
 
-Result<Lesson> parse_lesson(std::string_view text, std::string_view file) {
+Result<CaseLesson> parse_lesson(std::string_view text, std::string_view file) {
   const auto table = parse_toml(text, file);
   if (!table) return table.error();
   std::optional<Error> wrong;
   Reader reader(*table, std::string(file), "", wrong);
-  Lesson lesson;
+  CaseLesson lesson;
   read_lesson(reader, lesson);
   if (wrong) return *wrong;
   return lesson;

@@ -12,8 +12,8 @@
 namespace burr::scenario {
 
 // parse_case() has checked it already.
-[[nodiscard]] Result<Lesson> lesson_of(const Case& work);
+[[nodiscard]] Result<CaseLesson> lesson_of(const Case& work);
 // file: its name for errors.
-[[nodiscard]] Result<Lesson> parse_lesson(std::string_view text, std::string_view file);
+[[nodiscard]] Result<CaseLesson> parse_lesson(std::string_view text, std::string_view file);
 
 }  // namespace burr::scenario

@@ -1,5 +1,5 @@
 // scenario/rack.h - the tools that a session may take: the built-in ones (tools/tools.toml) and
-// those of a file of one's own. File format: docs/use/tools.md.
+// those of the user's own file. File format: docs/use/tools.md.
 //
 //     Result<Rack> rack = read_rack("mine.toml");   // added to the built-in ones
 //     const RackTool* saw = rack->find("sagittal-saw");

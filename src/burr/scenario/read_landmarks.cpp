@@ -145,16 +145,16 @@ void read_piece(Reader& reader, PlannedPiece& out) {
 
 }  // namespace
 
-void read_pieces(Reader& reader, Lesson& out) {
+void read_pieces(Reader& reader, CaseLesson& out) {
   reader.each("piece", [&](Reader& inner) { read_piece(inner, out.pieces.emplace_back()); });
 }
 
-void read_landmarks(Reader& reader, Lesson& out) {
+void read_landmarks(Reader& reader, CaseLesson& out) {
   reader.each("landmark",
               [&](Reader& inner) { read_landmark(inner, out.landmarks.emplace_back()); });
 }
 
-void read_regions(Reader& reader, Lesson& out) {
+void read_regions(Reader& reader, CaseLesson& out) {
   reader.each("region", [&](Reader& inner) {
     CaseRegion& region = out.regions.emplace_back();
     region.line = inner.line();

@@ -160,7 +160,7 @@ void read_reference(Reader& reader, Reference& out) {
 }
 
 // format = 2, where the file has a table of it
-void read_format(Reader& reader, Lesson& out) {
+void read_format(Reader& reader, CaseLesson& out) {
   double format = 1;
   reader.number("format", format, 0, 1e6);
   if (format > kNewest)
@@ -177,7 +177,7 @@ void read_format(Reader& reader, Lesson& out) {
 
 }  // namespace
 
-void read_lesson(Reader& reader, Lesson& out) {
+void read_lesson(Reader& reader, CaseLesson& out) {
   read_format(reader, out);
   read_texts(reader, "title", out.title);
   read_texts(reader, "description", out.description);

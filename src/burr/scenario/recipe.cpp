@@ -138,7 +138,7 @@ bool Keep::operator==(const Keep& other) const {
   return largest == other.largest && at_mm == other.at_mm;
 }
 
-bool Recipe::operator==(const Recipe& other) const {
+bool BoneRecipe::operator==(const BoneRecipe& other) const {
   return source == other.source && series == other.series && spacing_mm == other.spacing_mm &&
          allow_missing == other.allow_missing && as_it_is == other.as_it_is &&
          region == other.region && voxel_mm == other.voxel_mm && iso == other.iso &&
@@ -159,7 +159,7 @@ std::string without_variant(const std::string& phantom) {
   return phantom.substr(0, phantom.find('?'));
 }
 
-Recipe without_paths(Recipe recipe) {
+BoneRecipe without_paths(BoneRecipe recipe) {
   if (!is_phantom(recipe.source)) recipe.source.clear();
   if (!recipe.series.empty() && recipe.series.front() != '#') recipe.series = kOwn;
   if (!recipe.labels.empty()) recipe.labels = kOwn;
@@ -167,7 +167,7 @@ Recipe without_paths(Recipe recipe) {
   return recipe;
 }
 
-std::string to_json(const Recipe& recipe) {
+std::string to_json(const BoneRecipe& recipe) {
   json out = {{"source", recipe.source},
               {"voxel_mm", recipe.voxel_mm},
               {"smooth", recipe.smooth},
@@ -202,11 +202,11 @@ std::string to_json(const Recipe& recipe) {
   return out.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-Result<Recipe> recipe_from_json(std::string_view text, const std::string& where) {
+Result<BoneRecipe> recipe_from_json(std::string_view text, const std::string& where) {
   const json object = json::parse(text, nullptr, false);
   if (!object.is_object())
     return error(where + ": the recipe of the bone is not JSON; the file is damaged");
-  Recipe out;
+  BoneRecipe out;
   Fields fields(object);
   fields.text("source", out.source);
   fields.text("series", out.series);
@@ -233,10 +233,10 @@ Result<Recipe> recipe_from_json(std::string_view text, const std::string& where)
   fields.yes_or_no("check_scan", out.check_scan);
   std::size_t law = 1;
   fields.count("bone_law", law);
-  if (law < 1 || law > static_cast<std::size_t>(Recipe{}.bone_law))
+  if (law < 1 || law > static_cast<std::size_t>(BoneRecipe{}.bone_law))
     return error(fmt::format(
         "{}: its bone was made by law {}, and this burr knows laws 1 to {}; use a newer burr",
-        where, law, Recipe{}.bone_law));
+        where, law, BoneRecipe{}.bone_law));
   out.bone_law = static_cast<int>(law);
   if (!fields.wrong().empty())
     return error(

@@ -2,7 +2,7 @@
 // what its tissues are. The same type at the command line, in the window, in kept sessions and
 // recordings.
 //
-//     scenario::Recipe recipe;
+//     scenario::BoneRecipe recipe;
 //     recipe.source = "ct_folder";
 //     recipe.region = scenario::Region{{0, 99}, {0, 99}, {10, 60}};
 //     auto made = importing::import_bone(*scan, recipe, progress);
@@ -41,7 +41,7 @@ struct Keep {
   bool operator==(const Keep& other) const;
 };
 
-struct Recipe {
+struct BoneRecipe {
   std::string source;  // a file, a DICOM folder, or phantom:NAME
   std::string series;  // of a DICOM folder: a UID, its beginning, or "#2"; empty: the best one
   math::Vec3 spacing_mm = {0, 0, 0};  // all > 0: overrides the file
@@ -77,7 +77,7 @@ struct Recipe {
   // name it is of that time.
   int bone_law = 2;
 
-  bool operator==(const Recipe& other) const;
+  bool operator==(const BoneRecipe& other) const;
 };
 
 [[nodiscard]] bool is_phantom(const std::string& source);
@@ -90,12 +90,12 @@ struct Recipe {
 // As a recording may hold it: no path and no identifier. A file becomes "", an own table or a
 // series chosen by its UID becomes kOwn.
 inline constexpr const char* kOwn = "own";
-[[nodiscard]] Recipe without_paths(Recipe recipe);
+[[nodiscard]] BoneRecipe without_paths(BoneRecipe recipe);
 
 // One JSON object; every number comes back to the bit.
-[[nodiscard]] std::string to_json(const Recipe& recipe);
+[[nodiscard]] std::string to_json(const BoneRecipe& recipe);
 // The Error names the field. where: the file, for its sentence.
-[[nodiscard]] Result<Recipe> recipe_from_json(std::string_view text, const std::string& where);
+[[nodiscard]] Result<BoneRecipe> recipe_from_json(std::string_view text, const std::string& where);
 
 // What a person types: "10,200,0,99,5,80", "1300", "0.3,0.3,0.6". The Error names the option.
 [[nodiscard]] Result<Region> parse_region(std::string_view text);

@@ -33,9 +33,9 @@ void put(toml::table& table, std::string_view key, const std::string& value) {
     table.insert_or_assign(key, value);
 }
 
-toml::table session_table(const SessionWish& wish) {
+toml::table session_table(const CaseSettings& wish) {
   toml::table table;
-  for (const SessionWish::Field& field : wish.fields)
+  for (const CaseSettings::Field& field : wish.fields)
     std::visit([&](const auto& value) { table.insert_or_assign(field.word, value); }, field.value);
   return table;
 }

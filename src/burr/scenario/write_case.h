@@ -27,7 +27,7 @@ struct CaseFile {
   std::string tool;  // empty: the round burr
   // The text of a file of tools. If `tool` is among them, it becomes a tool of the case's own.
   std::string tools;
-  SessionWish session;
+  CaseSettings session;
   std::string motion;   // of the demonstration; empty: that of `from`
   double seconds = 20;  // of a named motion
 };

@@ -2,7 +2,7 @@
 // recordings that can be reached; takes back what was sent; leaves one row of the audit without the id.
 //
 // Afterwards no table holds the pseudonym, and with SQLite no file does: deleted text is overwritten and the file is
-// made anew. A server makes no figures of columns that hold it (schema.cpp). A server's own log of writes and its copies are its administrator's. Thread: as the Store.
+// made anew. A server makes no figures of columns that hold it (store_schema.cpp). A server's own log of writes and its copies are its administrator's. Thread: as the Store.
 #pragma once
 
 #include <filesystem>

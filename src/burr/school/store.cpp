@@ -14,7 +14,7 @@
 
 #include "burr/base/printable.h"
 #include "burr/record/identity.h"
-#include "burr/school/schema.h"
+#include "burr/school/store_schema.h"
 #include "burr/school/uuid.h"
 
 namespace burr::school {

@@ -1,10 +1,10 @@
 #include <limits>
 #include <string_view>
 
-#include "burr/metrics/course.h"
 #include "burr/metrics/process.h"
 #include "burr/metrics/stroke_direction.h"
 #include "burr/metrics/strokes.h"
+#include "burr/metrics/tube_course.h"
 #include "burr/scoring/measure.h"
 
 namespace burr::scoring {
@@ -27,7 +27,7 @@ Outcome strokes(const Item& item, const metrics::Process& process) {
 }
 
 Outcome stroke_direction(const Item& item, const metrics::Process& process,
-                         const scenario::Lesson& lesson) {
+                         const scenario::CaseLesson& lesson) {
   const auto along = metrics::stroke_direction(
       process.strokes, metrics::Course{lesson.landmark(item.along)->points});
   if (!along) return not_assessable(item, along.reason());
@@ -80,7 +80,7 @@ Outcome reaction(const Item& item, const Figures& figures) {
 }  // namespace
 
 std::optional<Outcome> measure_manner(const Item& item, const metrics::Process& process,
-                                      const Figures& figures, const scenario::Lesson& lesson) {
+                                      const Figures& figures, const scenario::CaseLesson& lesson) {
   const std::string_view how = item.how->name;
   if (how == "economy") return economy(item, figures);
   if (how == "shaft") return shaft(item, figures);

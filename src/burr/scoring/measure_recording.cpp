@@ -24,7 +24,7 @@ namespace {
 constexpr std::string_view kSoft = "intact_soft", kSolid = "untouched", kOrder = "order";
 
 // What the steps of the case spare, without plates of bone, which are to be thinned.
-std::vector<std::string> critical(const scenario::Lesson& lesson) {
+std::vector<std::string> critical(const scenario::CaseLesson& lesson) {
   std::vector<std::string> names;
   for (const scenario::Structure& one : lesson.structures) {
     const auto spares = [&](const scenario::Step& step) {
@@ -54,7 +54,8 @@ Outcome soft(const Item& item, const metrics::Process& process, double rate_hz) 
 }
 
 // How long a turning burr touched a structure of solid tissue.
-Outcome untouched(const Item& item, const metrics::Process& process, Scene& scene, double rate_hz) {
+Outcome untouched(const Item& item, const metrics::Process& process, Evidence& scene,
+                  double rate_hz) {
   for (const metrics::Process::SolidResult& one : process.solid) {
     if (one.name != item.id) continue;
     if (!one.contacts) return not_assessable(item, one.contacts.reason());
@@ -112,7 +113,7 @@ Outcome order(const Item& item, const StepOrder& found) {
                  false);
 }
 
-Figures figures_of(const metrics::Process& process, Scene& scene, const record::Player& player) {
+Figures figures_of(const metrics::Process& process, Evidence& scene, const record::Player& player) {
   std::vector<std::string> regions;
   for (const scenario::Step& step : scene.lesson().steps)
     if (!step.region.empty() && !step.adds) regions.push_back(step.region);
@@ -133,7 +134,7 @@ Figures figures_of(const metrics::Process& process, Scene& scene, const record::
 
 }  // namespace
 
-RecordingPass::RecordingPass(const Rubric& rubric, Scene& scene, record::Player& player)
+RecordingPass::RecordingPass(const Rubric& rubric, Evidence& scene, record::Player& player)
     : player_(player) {
   const auto distance = [&](const std::string& structure) {
     return kept_.emplace_back(scene.distance(structure)).get();
@@ -187,7 +188,7 @@ bool needs_recording(const Item& item) {
   return item.part == Part::process || item.how->name == kSoft || item.how->name == kSolid;
 }
 
-std::vector<Outcome> measure_recording(const Rubric& rubric, Scene& scene,
+std::vector<Outcome> measure_recording(const Rubric& rubric, Evidence& scene,
                                        const record::Player& player, metrics::Process process,
                                        Shown& shown) {
   std::vector<Outcome> out;

@@ -9,12 +9,12 @@
 
 #include "burr/base/check.h"
 #include "burr/metrics/region.h"
-#include "burr/scoring/scene.h"
+#include "burr/scoring/evidence.h"
 
 namespace burr::scoring {
 namespace {
 
-metrics::Region plan_of(const scenario::Reference& reference, Scene& scene) {
+metrics::Region plan_of(const scenario::Reference& reference, Evidence& scene) {
   metrics::Region all = scene.regions(reference.remove);
   for (const auto& [structure, thickness] : reference.leave)
     if (!scene.tissues(structure).empty())
@@ -62,9 +62,9 @@ Status fill(volume::Bone& bone, const metrics::Region& plan) {
 }  // namespace
 
 Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
-                        const scenario::Lesson& lesson, Progress& progress) {
+                        const scenario::CaseLesson& lesson, Progress& progress) {
   BURR_CHECK(lesson.reference && !lesson.reference->remove.empty());
-  Scene scene(before, before, lesson, progress);
+  Evidence scene(before, before, lesson, progress);
   const metrics::Region plan = plan_of(*lesson.reference, scene);
   if (scene.stopped()) return error(Trouble::interrupted, "stopped");
   const volume::Grid& grid = before.grid();

@@ -17,6 +17,6 @@ namespace burr::scoring {
 // bone: equal to `before`; becomes the result. lesson: with its landmarks placed and a reference.
 // Errors: interrupted; Trouble::data if the bone has no room for what is added.
 [[nodiscard]] Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
-                                      const scenario::Lesson& lesson, Progress& progress);
+                                      const scenario::CaseLesson& lesson, Progress& progress);
 
 }  // namespace burr::scoring

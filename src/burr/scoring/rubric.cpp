@@ -16,7 +16,7 @@
 #include "burr/scenario/case.h"
 #include "burr/scenario/read_texts.h"
 #include "burr/scenario/toml_reader.h"
-#include "burr/scoring/built_in.h"
+#include "burr/scoring/built_in_rubrics.h"
 
 namespace burr::scoring {
 namespace {
@@ -256,7 +256,7 @@ Result<Rubric> parse_rubric(std::string_view text, std::string_view file) {
   return out;
 }
 
-Status check(const Rubric& rubric, const scenario::Lesson& lesson) {
+Status check(const Rubric& rubric, const scenario::CaseLesson& lesson) {
   const auto name = [](const auto& one) { return one.name; };
   for (const Item& item : rubric.items) {
     if (!item.structure.empty() && lesson.structure(item.structure) == nullptr)

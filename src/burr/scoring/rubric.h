@@ -66,6 +66,6 @@ struct Rubric {
 [[nodiscard]] Result<Rubric> parse_rubric(std::string_view text, std::string_view file);
 
 // The case must have every structure, region and curve that the rubric names.
-[[nodiscard]] Status check(const Rubric& rubric, const scenario::Lesson& lesson);
+[[nodiscard]] Status check(const Rubric& rubric, const scenario::CaseLesson& lesson);
 
 }  // namespace burr::scoring

@@ -6,8 +6,8 @@
 
 #include "burr/metrics/solidity.h"
 #include "burr/record/course.h"
+#include "burr/scoring/evidence.h"
 #include "burr/scoring/measure.h"
-#include "burr/scoring/scene.h"
 #include "burr/scoring/show_regions.h"
 
 namespace burr::scoring {
@@ -24,12 +24,12 @@ void read_ending(const record::Player* player, Score& out) {
 
 }  // namespace
 
-Result<Score> score(const Rubric& rubric, const scenario::Lesson& lesson,
+Result<Score> score(const Rubric& rubric, const scenario::CaseLesson& lesson,
                     const volume::Bone& before, const volume::Bone& after, record::Player* player,
                     Progress& progress) {
   if (!metrics::same_grid(before, after))
     return error("the bone before and the bone after are not the same bone: their grids differ");
-  Scene scene(before, after, lesson, progress);
+  Evidence scene(before, after, lesson, progress);
   Score out;
   std::optional<RecordingPass> pass;
   if (player != nullptr) {

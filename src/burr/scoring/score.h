@@ -38,7 +38,7 @@ struct Score {
 // lesson: with its landmarks placed, and check(rubric, lesson) is fine. player: nullptr without a
 // recording; the items that need one are then not assessable. Error: interrupted, bones of different
 // grids, or ticks that cannot be read.
-[[nodiscard]] Result<Score> score(const Rubric& rubric, const scenario::Lesson& lesson,
+[[nodiscard]] Result<Score> score(const Rubric& rubric, const scenario::CaseLesson& lesson,
                                   const volume::Bone& before, const volume::Bone& after,
                                   record::Player* player, Progress& progress);
 

@@ -7,13 +7,13 @@
 // Thread: one at a time.
 #pragma once
 
+#include "burr/scoring/evidence.h"
 #include "burr/scoring/rubric.h"
-#include "burr/scoring/scene.h"
 #include "burr/scoring/shown.h"
 
 namespace burr::scoring {
 
 // Fills remove, keep and regions.
-void show_regions(const Rubric& rubric, Scene& scene, Shown& shown);
+void show_regions(const Rubric& rubric, Evidence& scene, Shown& shown);
 
 }  // namespace burr::scoring

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "burr/base/printable.h"
+#include "burr/scoring/evidence.h"
 #include "burr/scoring/measure.h"
 #include "burr/scoring/measure_list.h"
 #include "burr/scoring/rubric.h"
-#include "burr/scoring/scene.h"
 #include "burr/scoring/score.h"
 
 namespace burr::scoring {
@@ -44,7 +44,7 @@ Item item_of_step(const scenario::DoneWhen& done) {
 }
 
 // What is wrong with it, as "FIELD: what and remedy"; "": nothing.
-std::string fault_of(const scenario::DoneWhen& done, const scenario::Lesson& lesson) {
+std::string fault_of(const scenario::DoneWhen& done, const scenario::CaseLesson& lesson) {
   const Item item = item_of_step(done);
   if (item.how == nullptr || !serves(*item.how)) {
     std::vector<std::string_view> names;
@@ -84,7 +84,7 @@ std::string fault_of(const scenario::DoneWhen& done, const scenario::Lesson& les
 
 }  // namespace
 
-Status check_done(const scenario::Lesson& lesson, const std::string& file) {
+Status check_done(const scenario::CaseLesson& lesson, const std::string& file) {
   for (const scenario::Step& step : lesson.steps)
     if (step.done)
       if (const std::string fault = fault_of(*step.done, lesson); !fault.empty())
@@ -92,12 +92,12 @@ Status check_done(const scenario::Lesson& lesson, const std::string& file) {
   return fine();
 }
 
-Result<bool> step_done(const scenario::Step& step, const scenario::Lesson& lesson,
+Result<bool> step_done(const scenario::Step& step, const scenario::CaseLesson& lesson,
                        const volume::Bone& before, const volume::Bone& now, Progress& progress) {
   if (!step.done) return false;
   const Item item = item_of_step(*step.done);
   if (item.how == nullptr) return false;
-  Scene scene(before, now, lesson, progress);
+  Evidence scene(before, now, lesson, progress);
   const bool met = measure_bone(item, scene).verdict == Verdict::met;
   if (scene.stopped() || progress.cancelled()) return error(Trouble::interrupted, "stopped");
   return met;

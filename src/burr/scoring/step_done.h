@@ -18,11 +18,11 @@ namespace burr::scoring {
 
 // Every `done` must name a measure of the bone, with what that measure needs and with its limits.
 // file: for errors, which are one sentence with file, line, field and remedy.
-[[nodiscard]] Status check_done(const scenario::Lesson& lesson, const std::string& file);
+[[nodiscard]] Status check_done(const scenario::CaseLesson& lesson, const std::string& file);
 
 // False: not yet, not assessable on this bone, or the step has no `done`. The landmarks of the
 // lesson are placed, and check_done() found nothing. Error: interrupted.
-[[nodiscard]] Result<bool> step_done(const scenario::Step& step, const scenario::Lesson& lesson,
+[[nodiscard]] Result<bool> step_done(const scenario::Step& step, const scenario::CaseLesson& lesson,
                                      const volume::Bone& before, const volume::Bone& now,
                                      Progress& progress);
 

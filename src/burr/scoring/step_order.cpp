@@ -8,7 +8,7 @@ namespace burr::scoring {
 namespace {
 
 // All steps that must come after `first`.
-std::set<std::string> later_than(const scenario::Lesson& lesson, const std::string& first) {
+std::set<std::string> later_than(const scenario::CaseLesson& lesson, const std::string& first) {
   std::set<std::string> found;
   std::vector<std::string> open = {first};
   while (!open.empty()) {
@@ -23,7 +23,7 @@ std::set<std::string> later_than(const scenario::Lesson& lesson, const std::stri
 
 }  // namespace
 
-StepOrder step_order(const scenario::Lesson& lesson, std::span<const metrics::StepMark> marks) {
+StepOrder step_order(const scenario::CaseLesson& lesson, std::span<const metrics::StepMark> marks) {
   StepOrder out;
   std::set<std::string> done;
   for (const metrics::StepMark& mark : marks) {

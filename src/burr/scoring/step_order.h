@@ -21,7 +21,7 @@ struct StepOrder {
 };
 
 // marks: in the order of time; steps that the case does not have are ignored.
-[[nodiscard]] StepOrder step_order(const scenario::Lesson& lesson,
+[[nodiscard]] StepOrder step_order(const scenario::CaseLesson& lesson,
                                    std::span<const metrics::StepMark> marks);
 
 }  // namespace burr::scoring

@@ -7,7 +7,7 @@
 
 #include "burr/device/hand_path.h"
 #include "burr/device/simulated_hand.h"
-#include "burr/sim/interval.h"
+#include "burr/sim/trial_interval.h"
 
 namespace burr::sim {
 

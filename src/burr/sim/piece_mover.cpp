@@ -250,7 +250,7 @@ void PieceMover::prepare(Wanted wanted) {
     const std::lock_guard lock(mutex_);
     store = store_;
   }
-  std::optional<Result<Prepared>> ready;
+  std::optional<Result<ToSend>> ready;
   if (!copied) {
     ready.emplace(copied.error());
   } else {
@@ -260,7 +260,7 @@ void PieceMover::prepare(Wanted wanted) {
     if (bricks) {
       move.bricks = bricks->bricks->hash;
       move.body = bricks->bricks->body.hash;
-      ready.emplace(Prepared{move, std::move(*bricks), wanted.lifts});
+      ready.emplace(ToSend{move, std::move(*bricks), wanted.lifts});
     } else {
       ready.emplace(bricks.error());
     }
@@ -280,7 +280,7 @@ void PieceMover::want(const Wanted& wanted) {
 }
 
 // What has been prepared goes to the servo.
-void PieceMover::send(Result<Prepared>& ready) {
+void PieceMover::send(Result<ToSend>& ready) {
   if (!ready) {
     why_ = ready.error().text;
     state_ = State::refused;
@@ -358,7 +358,7 @@ void PieceMover::see_lifted(const tick::PieceRow& piece) {
 }
 
 std::vector<PieceMover::News> PieceMover::look(const tick::PieceRow& piece) {
-  std::optional<Result<Prepared>> ready;
+  std::optional<Result<ToSend>> ready;
   std::vector<News> news;
   {
     const std::lock_guard lock(mutex_);

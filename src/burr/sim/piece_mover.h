@@ -113,9 +113,9 @@ class PieceMover {
     std::unique_ptr<volume::Bone> bone;
     std::uint64_t writes = 0;
   };
-  struct Prepared {
+  struct ToSend {
     edit::PieceMove move;
-    edit::PieceStore::Prepared bricks;
+    edit::PieceStore::NewBricks bricks;
     bool lifts = false;
   };
   struct Lifted {
@@ -148,7 +148,7 @@ class PieceMover {
   void list_pieces();
   void prepare(Wanted wanted);
   void want(const Wanted& wanted);
-  void send(Result<Prepared>& ready);
+  void send(Result<ToSend>& ready);
   void see_end();
   void see_lifted(const tick::PieceRow& piece);
 
@@ -160,7 +160,7 @@ class PieceMover {
   std::string why_;
   double overlap_ = 0;
   bool refusal_ = false;
-  std::optional<Prepared> under_way_;
+  std::optional<ToSend> under_way_;
   std::optional<Lifted> lifted_;
   std::optional<Splinter> sucked_;  // sent
 
@@ -171,7 +171,7 @@ class PieceMover {
   bool away_ = false;  // a piece is: what comes and goes in the bone is no news
   std::vector<News> news_;
   std::shared_ptr<const std::vector<edit::PieceStore::Found>> list_;
-  std::optional<Result<Prepared>> ready_;
+  std::optional<Result<ToSend>> ready_;
   std::optional<Suction> suction_;
   std::optional<Splinter> splinter_;
 

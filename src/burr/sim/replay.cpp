@@ -43,16 +43,16 @@ std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
 }
 
 // The bricks of a move, made again. What the servo of the recording refused it refuses now.
-std::optional<edit::PieceStore::Prepared> lay_ready(const edit::PieceStore& pieces,
-                                                    const volume::Bone& bone,
-                                                    const tick::Command& command,
-                                                    tick::Servo& servo) {
+std::optional<edit::PieceStore::NewBricks> lay_ready(const edit::PieceStore& pieces,
+                                                     const volume::Bone& bone,
+                                                     const tick::Command& command,
+                                                     tick::Servo& servo) {
   const edit::PieceMove& move = command.move;
   if (servo.writes_done() != move.writes) return std::nullopt;
   auto made = command.kind == tick::CommandKind::lift_piece ? pieces.prepare_lift(bone, move)
                                                             : pieces.prepare(bone, move);
   if (!made) return std::nullopt;
-  std::optional<edit::PieceStore::Prepared> ready = std::move(*made);
+  std::optional<edit::PieceStore::NewBricks> ready = std::move(*made);
   if (!servo.lay_ready(*ready->bricks)) return std::nullopt;
   return ready;
 }
@@ -109,7 +109,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
 
   ReplayOutcome outcome;
   edit::PieceStore& pieces = outcome.pieces;
-  std::optional<edit::PieceStore::Prepared> under_way;  // lives until the servo has written it
+  std::optional<edit::PieceStore::NewBricks> under_way;  // lives until the servo has written it
   record::StepCursor steps = player.steps();
   record::BrickCursor bricks = player.bricks();
   record::Step step;
@@ -124,7 +124,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
           step.row.tick + (whole ? 0 : 1), whole ? "" : ", of the second hand");
       break;
     }
-    std::optional<edit::PieceStore::Prepared> moving;
+    std::optional<edit::PieceStore::NewBricks> moving;
     std::shared_ptr<const edit::MovedBricks> splinter;  // of this tick
     for (const tick::Command& command : step.commands) {
       const bool moves = command.kind == tick::CommandKind::move_piece ||

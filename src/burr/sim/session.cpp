@@ -15,7 +15,7 @@
 #include "burr/record/recorder.h"
 #include "burr/rt/clock.h"
 #include "burr/sim/row_log.h"
-#include "burr/thermal/worker.h"
+#include "burr/thermal/heat_worker.h"
 #include "burr/tick/controls.h"
 #include "burr/tick/fault_report.h"
 #include "burr/tick/own_law.h"

@@ -101,13 +101,12 @@ Status check_law(const record::SessionInfo& info, const tick::OwnLaw* given,
   const std::string name = base::printable(was.name);
   if (was.kind != "compiled") {
     if (given == nullptr) return fine();
-    return error(
-        Trouble::usage,
-        was.kind.empty()
-            ? fmt::format("{}: was made without a law of one's own; leave out --law", where)
-            : fmt::format("{}: its law was a function of Python, whose answers are in the "
-                          "recording; leave out --law",
-                          where));
+    return error(Trouble::usage,
+                 was.kind.empty()
+                     ? fmt::format("{}: was made without a custom law; leave out --law", where)
+                     : fmt::format("{}: its law was a function of Python, whose answers are in the "
+                                   "recording; leave out --law",
+                                   where));
   }
   if (given == nullptr)
     return error(Trouble::usage,

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "burr/base/result.h"
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/record/session_info.h"
 #include "burr/sim/session.h"
 #include "burr/tick/second_hand_settings.h"
@@ -19,7 +19,7 @@ namespace burr::sim {
 void describe(const SessionSettings& settings, const device::DeviceSpec& device,
               record::SessionInfo& info);
 
-// The law of one's own; none: nothing is written, and its kind is empty.
+// The custom law; none: nothing is written, and its kind is empty.
 void describe(const tick::LawAbout& law, record::SessionInfo& info);
 [[nodiscard]] tick::LawAbout law_of(const record::SessionInfo& info);
 // May this law be asked again in a replay of the recording? nullptr: none is there. Error: the recording was

@@ -47,7 +47,7 @@ std::vector<volume::TissueId> tissues_in(const scenario::Structure& structure,
 }
 
 // names of all structures that matter to a surgeon
-std::set<std::string> needed(const scenario::Lesson& lesson) {
+std::set<std::string> needed(const scenario::CaseLesson& lesson) {
   std::set<std::string> names;
   for (const scenario::Structure* one : spared_of(lesson)) names.insert(one->name);
   for (const scenario::CaseRegion& region : lesson.regions)
@@ -61,7 +61,7 @@ std::set<std::string> needed(const scenario::Lesson& lesson) {
 
 }  // namespace
 
-std::vector<const scenario::Structure*> spared_of(const scenario::Lesson& lesson) {
+std::vector<const scenario::Structure*> spared_of(const scenario::CaseLesson& lesson) {
   std::vector<const scenario::Structure*> spared;
   for (const scenario::Structure& one : lesson.structures)
     if (!one.glass &&
@@ -70,7 +70,7 @@ std::vector<const scenario::Structure*> spared_of(const scenario::Lesson& lesson
   return spared;
 }
 
-Result<Believed> Believed::make(const volume::Bone& bone, const scenario::Lesson& lesson,
+Result<Believed> Believed::make(const volume::Bone& bone, const scenario::CaseLesson& lesson,
                                 double rms, std::uint64_t seed, Progress& progress) {
   Believed out;
   people::RandomStream random(seed, kErrorStream);

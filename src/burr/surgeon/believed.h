@@ -30,7 +30,7 @@ class Believed {
   // error of perception, per axis; its draws depend on the seed and on the structure's place in the
   // lesson. Error: interrupted.
   [[nodiscard]] static Result<Believed> make(const volume::Bone& bone,
-                                             const scenario::Lesson& lesson, double rms,
+                                             const scenario::CaseLesson& lesson, double rms,
                                              std::uint64_t seed, Progress& progress);
 
   // Infinity: beyond 12 mm, or the bone has no such structure.
@@ -64,6 +64,6 @@ class Believed {
 
 // The structures that must stay whole: all that the lesson calls intact but plates of bone (which
 // are thinned) and glass.
-[[nodiscard]] std::vector<const scenario::Structure*> spared_of(const scenario::Lesson& lesson);
+[[nodiscard]] std::vector<const scenario::Structure*> spared_of(const scenario::CaseLesson& lesson);
 
 }  // namespace burr::surgeon

@@ -22,7 +22,7 @@
 #include "burr/scenario/lesson.h"
 #include "burr/surgeon/plan.h"
 #include "burr/surgeon/skill.h"
-#include "burr/surgeon/work.h"
+#include "burr/surgeon/surgeon_work.h"
 
 namespace burr::surgeon {
 

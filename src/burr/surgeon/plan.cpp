@@ -113,12 +113,12 @@ FieldGrid behind(const FieldGrid& field, const Vec3& out) {
   return result;
 }
 
-std::vector<Vec3> approach_of(const scenario::Lesson& lesson) {
+std::vector<Vec3> approach_of(const scenario::CaseLesson& lesson) {
   return lesson.approach.empty() ? std::vector<Vec3>{Vec3::UnitZ()} : lesson.approach;
 }
 
-Spare spare_of(const volume::Grid& bone, const scenario::Lesson& lesson, const Believed& believed,
-               double margin_less) {
+Spare spare_of(const volume::Grid& bone, const scenario::CaseLesson& lesson,
+               const Believed& believed, double margin_less) {
   Spare out{FieldGrid(bone), FieldGrid(bone), FieldGrid(bone)};
   constexpr float kFar = 1;  // [m]
   for (FieldGrid* one : {&out.free, &out.outside, &out.near})
@@ -144,7 +144,7 @@ Spare spare_of(const volume::Grid& bone, const scenario::Lesson& lesson, const B
   return out;
 }
 
-std::vector<Vec3> approach_of(const scenario::Lesson& lesson, const scenario::Step& step) {
+std::vector<Vec3> approach_of(const scenario::CaseLesson& lesson, const scenario::Step& step) {
   return step.approach.empty() ? approach_of(lesson) : step.approach;
 }
 

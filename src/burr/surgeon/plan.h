@@ -57,7 +57,7 @@ class FieldGrid {
 struct Spare {
   FieldGrid free, outside, near;
 };
-[[nodiscard]] Spare spare_of(const volume::Grid& bone, const scenario::Lesson& lesson,
+[[nodiscard]] Spare spare_of(const volume::Grid& bone, const scenario::CaseLesson& lesson,
                              const Believed& believed, double margin_less);
 
 // The goal of a step in `region`, for a surgeon who is in these directions (approach_of).
@@ -66,8 +66,8 @@ struct Spare {
                                 const Spare& spare);
 
 // Unit, from the bone to the surgeon; at least one. Of a step, or of the lesson where it has none.
-[[nodiscard]] std::vector<math::Vec3> approach_of(const scenario::Lesson& lesson);
-[[nodiscard]] std::vector<math::Vec3> approach_of(const scenario::Lesson& lesson,
+[[nodiscard]] std::vector<math::Vec3> approach_of(const scenario::CaseLesson& lesson);
+[[nodiscard]] std::vector<math::Vec3> approach_of(const scenario::CaseLesson& lesson,
                                                   const scenario::Step& step);
 
 }  // namespace burr::surgeon

@@ -74,7 +74,7 @@ math::Quat axes(const Vec3& x, const Vec3& z) {
   return math::Quat(turn).normalized();
 }
 
-std::string step_ids(const scenario::Lesson& lesson) {
+std::string step_ids(const scenario::CaseLesson& lesson) {
   std::vector<std::string> ids;
   for (const scenario::Step& step : lesson.steps) ids.push_back(step.id);
   return fmt::format("{}", fmt::join(ids, ", "));
@@ -82,7 +82,7 @@ std::string step_ids(const scenario::Lesson& lesson) {
 
 }  // namespace
 
-Result<CutPlane> plane_of(const scenario::Lesson& lesson, std::string_view id) {
+Result<CutPlane> plane_of(const scenario::CaseLesson& lesson, std::string_view id) {
   const scenario::Step* const step = lesson.step(id);
   if (step == nullptr)
     return error(Trouble::usage,

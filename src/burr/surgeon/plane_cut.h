@@ -28,7 +28,7 @@ struct CutPlane {
 // Half-way between the two planes that bound the region of the step, cut from the step's first
 // approach. Error: there is no such step, with those that there are; its region lies not between two
 // parallel planes; the approach does not lie in the plane.
-[[nodiscard]] Result<CutPlane> plane_of(const scenario::Lesson& lesson, std::string_view step);
+[[nodiscard]] Result<CutPlane> plane_of(const scenario::CaseLesson& lesson, std::string_view step);
 
 // How a tool is held in the plane.
 struct Blade {

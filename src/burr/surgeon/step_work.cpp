@@ -50,8 +50,9 @@ bool in_air(const volume::Bone& bone, const Vec3& p) { return volume::depth_at(b
 }  // namespace
 
 StepWork::StepWork(const volume::Bone& bone, const scenario::Step& step,
-                   const scenario::Lesson& lesson, const FieldGrid& goal, const FieldGrid& allowed,
-                   const Spare& spare, const Skill& skill, double case_diameter)
+                   const scenario::CaseLesson& lesson, const FieldGrid& goal,
+                   const FieldGrid& allowed, const Spare& spare, const Skill& skill,
+                   double case_diameter)
     : step_(step),
       lesson_(lesson),
       allowed_(allowed),

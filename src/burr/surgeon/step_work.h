@@ -23,7 +23,7 @@
 #include "burr/scenario/lesson.h"
 #include "burr/surgeon/plan.h"
 #include "burr/surgeon/skill.h"
-#include "burr/surgeon/work.h"
+#include "burr/surgeon/surgeon_work.h"
 #include "burr/volume/bone.h"
 
 namespace burr::surgeon {
@@ -34,7 +34,7 @@ class StepWork final : public Work {
  public:
   // goal: of this step. allowed: of this step and those before it, where the burr may go. Everything
   // but bone and goal must outlive this. case_diameter: of the case's burr [m].
-  StepWork(const volume::Bone& bone, const scenario::Step& step, const scenario::Lesson& lesson,
+  StepWork(const volume::Bone& bone, const scenario::Step& step, const scenario::CaseLesson& lesson,
            const FieldGrid& goal, const FieldGrid& allowed, const Spare& spare, const Skill& skill,
            double case_diameter);
 
@@ -78,7 +78,7 @@ class StepWork final : public Work {
   void take_nodes(const volume::Bone& bone, const FieldGrid& goal);
 
   const scenario::Step& step_;
-  const scenario::Lesson& lesson_;
+  const scenario::CaseLesson& lesson_;
   const FieldGrid& allowed_;
   const Spare& spare_;
   Skill skill_;

@@ -35,7 +35,7 @@ bool clear(const volume::Bone& bone, const Vec3& from, const Vec3& towards) {
 
 }  // namespace
 
-Surgeon::Surgeon(const scenario::Lesson& lesson, const tool::Burr& burr, const Skill& skill,
+Surgeon::Surgeon(const scenario::CaseLesson& lesson, const tool::Burr& burr, const Skill& skill,
                  std::uint64_t seed)
     : lesson_(lesson),
       held_{burr.radius, burr.kind},
@@ -45,7 +45,7 @@ Surgeon::Surgeon(const scenario::Lesson& lesson, const tool::Burr& burr, const S
       out_(approach_of(lesson).front()) {}
 
 Result<std::unique_ptr<Surgeon>> Surgeon::make(const volume::Bone& bone,
-                                               const scenario::Lesson& lesson,
+                                               const scenario::CaseLesson& lesson,
                                                const tool::Burr& burr, const Vec3& start,
                                                const Skill& skill, std::uint64_t seed,
                                                double rate_hz, Progress& progress) {

@@ -29,7 +29,7 @@
 #include "burr/surgeon/plan.h"
 #include "burr/surgeon/skill.h"
 #include "burr/surgeon/surgeon_hand.h"
-#include "burr/surgeon/work.h"
+#include "burr/surgeon/surgeon_work.h"
 #include "burr/tool/burr_tool.h"
 
 namespace burr::surgeon {
@@ -63,7 +63,7 @@ class Surgeon {
   // point on the bone above which the hand begins. Errors: a case without steps that have a region;
   // interrupted.
   [[nodiscard]] static Result<std::unique_ptr<Surgeon>> make(const volume::Bone& bone,
-                                                             const scenario::Lesson& lesson,
+                                                             const scenario::CaseLesson& lesson,
                                                              const tool::Burr& burr,
                                                              const math::Vec3& start,
                                                              const Skill& skill, std::uint64_t seed,
@@ -84,13 +84,13 @@ class Surgeon {
   [[nodiscard]] double left() const { return work_ ? work_->left() : 0; }
 
  private:
-  Surgeon(const scenario::Lesson& lesson, const tool::Burr& burr, const Skill& skill,
+  Surgeon(const scenario::CaseLesson& lesson, const tool::Burr& burr, const Skill& skill,
           std::uint64_t seed);
   void begin_step(const volume::Bone& bone, Consulted& out);
   void end_step(Consulted& out);
   void look_from(const volume::Bone& bone, const NextStroke& next, Consulted& out);
 
-  scenario::Lesson lesson_;
+  scenario::CaseLesson lesson_;
   HeldBurr held_;
   double case_diameter_;
   Skill skill_;

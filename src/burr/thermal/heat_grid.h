@@ -32,9 +32,9 @@
 
 #include "burr/math/aabb.h"
 #include "burr/rt/changed_bits.h"
+#include "burr/thermal/heat_settings.h"
+#include "burr/thermal/heat_summary.h"
 #include "burr/thermal/matter.h"
-#include "burr/thermal/settings.h"
-#include "burr/thermal/summary.h"
 #include "burr/volume/bone.h"
 
 namespace burr::thermal {

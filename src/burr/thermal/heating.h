@@ -5,16 +5,16 @@
 //       if (heating.take(row)) show(heating.summary());
 //
 // The result depends on the rows and on the bone at the time when they are processed, never on the
-// speed of processing: the same rows give the same bits, here or in worker.h, if the bone is cut at
+// speed of processing: the same rows give the same bits, here or in heat_worker.h, if the bone is cut at
 // the same rows. Thread: any one, never the servo's.
 #pragma once
 
 #include <cstdint>
 
 #include "burr/thermal/heat_grid.h"
-#include "burr/thermal/rows.h"
-#include "burr/thermal/settings.h"
-#include "burr/thermal/summary.h"
+#include "burr/thermal/heat_rows.h"
+#include "burr/thermal/heat_settings.h"
+#include "burr/thermal/heat_summary.h"
 
 namespace burr::thermal {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "burr/math/aabb.h"
-#include "burr/thermal/settings.h"
+#include "burr/thermal/heat_settings.h"
 #include "burr/volume/bone.h"
 
 namespace burr::thermal {

@@ -3,7 +3,7 @@
 // Thread: servo. Units: SI.
 #pragma once
 
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/edit/mirror.h"
 #include "burr/haptics/safety/coupling.h"
 #include "burr/rt/rt.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "burr/edit/laws/thesis.h"
+#include "burr/edit/laws/thesis_law.h"
 #include "burr/math/elementary.h"
 #include "burr/math/sums.h"
 
@@ -161,7 +161,7 @@ edit::Cutting Cutting::by_law(const Press& press, double speed) BURR_RT {
       dt_, settings_.removal);
 }
 
-// What a law of one's own pays for, no more than the motor can give. Where less of its force reached the
+// What a custom law pays for, no more than the motor can give. Where less of its force reached the
 // hand, it cuts less in proportion.
 edit::Cutting Cutting::by_own_law(const Press& press) const BURR_RT {
   const double wanted = math::dot(law_->force, press.normal);

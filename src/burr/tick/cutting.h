@@ -13,13 +13,13 @@
 #include "burr/edit/bone_writer.h"
 #include "burr/edit/brush.h"
 #include "burr/edit/carve.h"
-#include "burr/edit/laws/chips.h"
+#include "burr/edit/laws/chip_law.h"
 #include "burr/edit/laws/elements.h"
 #include "burr/edit/laws/removal.h"
 #include "burr/edit/undo.h"
 #include "burr/haptics/vibration.h"
 #include "burr/rt/rt.h"
-#include "burr/thermal/rows.h"
+#include "burr/thermal/heat_rows.h"
 #include "burr/tick/controls.h"
 #include "burr/tick/hand.h"
 #include "burr/tick/rows.h"
@@ -39,7 +39,7 @@ class Cutting {
   // the session.
   void set_beside(const Cutting* other) { beside_ = other; }
 
-  // Of a law of one's own, in each tick before cut(); it may pay for the cut. Before the session.
+  // Of a custom law, in each tick before cut(); it may pay for the cut. Before the session.
   void set_law(const LawRow* law) { law_ = law; }
 
   [[nodiscard]] tool::Spindle& spindle() BURR_RT { return spindle_; }

@@ -109,7 +109,7 @@ class Hand {
   // What touch found, for the row; adds its flags.
   void report(const Sent& sent, haptics::Contact& contact) const BURR_RT;
 
-  // ---- a hand that hovers (device/hand.h)
+  // ---- a hand that hovers (device/hand_state.h)
   [[nodiscard]] bool hovers() const BURR_RT { return (state_.buttons & device::kHovers) != 0; }
   // Before engage(): the tool goes to where the hand is, if it is free there.
   void set_down() BURR_RT;

@@ -25,7 +25,7 @@
 
 #include <array>
 
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/edit/moved_bricks.h"
 #include "burr/haptics/six/tool_touch.h"
 #include "burr/haptics/six/two_tools.h"

@@ -1,4 +1,4 @@
-// tick/law_call.h - asks a law of one's own in a tick, and believes only what can be.
+// tick/law_call.h - asks a custom law in a tick, and believes only what can be.
 //
 // Thread: servo. Frame: world. Units: SI. Memory: none.
 #pragma once

@@ -1,4 +1,4 @@
-/* tick/law_v1.h - a law of one's own, compiled: what a shared library gives to burr. Plain C.
+/* tick/law_v1.h - a custom law, compiled: what a shared library gives to burr. Plain C.
  *
  *     gcc -O2 -shared -fPIC -I SRC my_law.c -o my_law.so        SRC: the folder that holds burr/
  *     burr verify law my_law.so                                 tries it, in a process of its own

@@ -10,7 +10,7 @@
 #include <array>
 #include <cstdint>
 
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/edit/ledger.h"
 #include "burr/haptics/contact.h"
 #include "burr/tick/command.h"
@@ -27,7 +27,7 @@ struct PieceRow {
   std::array<double, 4> turn = {0, 0, 0, 0};  // from where it came free: unit quaternion x, y, z, w
 };
 
-// What a law of one's own answered (tick/own_law.h). Zero where there is none, or it was not asked.
+// What a custom law answered (tick/own_law.h). Zero where there is none, or it was not asked.
 struct LawRow {
   static constexpr std::int64_t kNone = 0, kActs = 1, kOff = 2;  // off: it gave what cannot be
   std::int64_t state = kNone;

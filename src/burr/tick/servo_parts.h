@@ -7,7 +7,7 @@
 //     cutting.h   drag of the bone on the burr, vibration, the motor's torque
 //     hand.h      limit, write the force
 //     cutting.h   then cut the bone
-//     outbox.h    then give row and bricks to the others
+//     servo_outbox.h    then give row and bricks to the others
 //
 // A second hand (second_hand.h), if there is one, takes each of these steps directly after the first.
 //
@@ -26,7 +26,7 @@
 #include "burr/rt/ring.h"
 #include "burr/rt/rt.h"
 #include "burr/surface/mesher.h"
-#include "burr/thermal/worker.h"
+#include "burr/thermal/heat_worker.h"
 #include "burr/tick/controls.h"
 #include "burr/tick/cutting.h"
 #include "burr/tick/fault_report.h"
@@ -34,12 +34,12 @@
 #include "burr/tick/held_piece.h"
 #include "burr/tick/law_call.h"
 #include "burr/tick/orders.h"
-#include "burr/tick/outbox.h"
 #include "burr/tick/recorder_rings.h"
 #include "burr/tick/restore.h"
 #include "burr/tick/rows.h"
 #include "burr/tick/second_hand.h"
 #include "burr/tick/servo.h"
+#include "burr/tick/servo_outbox.h"
 #include "burr/tick/settings.h"
 #include "burr/tick/shed.h"
 #include "burr/tick/touch_methods.h"

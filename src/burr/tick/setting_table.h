@@ -21,7 +21,7 @@
 
 #include "burr/base/given.h"
 #include "burr/base/result.h"
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/haptics/safety/limit.h"
 #include "burr/tick/settings.h"
 #include "burr/volume/iso_vertices.h"

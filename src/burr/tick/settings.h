@@ -63,7 +63,7 @@ struct ServoSettings {
   double stroke_pause = 0.3;  // a stroke ends after so long without contact           [s]
   double lift_speed = 50e-3;  // of the burr before an undo                             [m/s]
   OwnLaw* law =
-      nullptr;  // of one's own, in place of the force law (own_law.h); it outlives the servo
+      nullptr;  // a custom law, in place of the force law (own_law.h); it outlives the servo
   std::size_t undo_bricks = 16384;  // that all remembered strokes may touch together
 };
 

@@ -2,7 +2,7 @@
 //
 // Chained: `before` is the hash of the previous tick, so the last hash covers the whole session.
 // The times (took_us, late_us) are left out, because they differ from run to run. A torque of zero,
-// sent or not, a turn of zero, a piece never moved, none lifted and no law of one's own are left out too, so that recordings from before these existed keep
+// sent or not, a turn of zero, a piece never moved, none lifted and no custom law are left out too, so that recordings from before these existed keep
 // their hashes. For the same reason the undone volume
 // is left out: it follows from the removed volume and the commands. No allocation.
 #pragma once

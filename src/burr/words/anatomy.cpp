@@ -92,7 +92,7 @@ std::optional<std::string> title_in(const Titles& titles, std::string_view name)
 
 }  // namespace
 
-void take_titles_of(const scenario::Lesson* lesson) {
+void take_titles_of(const scenario::CaseLesson* lesson) {
   of_case() = {};
   if (lesson == nullptr) return;
   for (const scenario::Structure& one : lesson->structures) {

@@ -19,7 +19,7 @@ namespace burr::words {
 
 // From now on the titles of this case's structures hold, for the structures and for those tissues of
 // theirs that burr does not know; nullptr: those of no case.
-void take_titles_of(const scenario::Lesson* lesson);
+void take_titles_of(const scenario::CaseLesson* lesson);
 
 // The title of a place of that case, which is a landmark or a region; without one as anatomy().
 [[nodiscard]] std::string place_name(std::string_view name);

@@ -75,10 +75,10 @@ void keep_bones_in(fs::path folder, std::string build) {
   cache() = {std::move(folder), std::move(build)};
 }
 
-std::string entry_of(const scenario::Recipe& recipe) {
+std::string entry_of(const scenario::BoneRecipe& recipe) {
   if (cache().folder.empty()) return {};
   std::uint64_t hash = scenario::text_hash(cache().build);
-  scenario::Recipe what = recipe;
+  scenario::BoneRecipe what = recipe;
   what.reserve_bricks = 0;  // room for later, no part of the bone
   if (!scenario::is_phantom(recipe.source)) {
     if (!mix_all(recipe.source, hash)) return {};

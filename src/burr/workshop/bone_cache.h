@@ -23,7 +23,7 @@ namespace burr::workshop {
 void keep_bones_in(std::filesystem::path folder, std::string build);
 
 // The name of the bone's entry; empty: nothing is kept, or what it is made of cannot be read. Reads the scan once.
-[[nodiscard]] std::string entry_of(const scenario::Recipe& recipe);
+[[nodiscard]] std::string entry_of(const scenario::BoneRecipe& recipe);
 
 // Bone, format, notices, size and voxels of the summary; nothing else of it is kept. None: it was never kept, or is damaged.
 [[nodiscard]] std::optional<importing::Imported> kept_bone(const std::string& entry,

@@ -10,7 +10,7 @@
 namespace burr::workshop {
 namespace {
 
-std::string place_of(const scenario::Case& work, const scenario::SessionWish::Field& field) {
+std::string place_of(const scenario::Case& work, const scenario::CaseSettings::Field& field) {
   return field.line > 0
              ? fmt::format("{}.toml: line {}: session.{}", work.name, field.line,
                            base::printable(field.word))
@@ -29,7 +29,7 @@ std::string known_words() {
 
 Status take_session(const scenario::Case& work, tick::ServoSettings& servo) {
   if (!work.session) return fine();
-  for (const scenario::SessionWish::Field& field : work.session->fields) {
+  for (const scenario::CaseSettings::Field& field : work.session->fields) {
     const auto* setting = tick::setting_of_word(field.word);
     if (setting == nullptr || setting->about.typed.place != tick::Typed::Place::session)
       return error(

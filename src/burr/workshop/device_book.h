@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/device/mapping.h"
 
 namespace burr::workshop {

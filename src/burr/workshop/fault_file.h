@@ -8,7 +8,7 @@
 #include <string>
 
 #include "burr/base/result.h"
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/tick/servo.h"
 
 namespace burr::workshop {

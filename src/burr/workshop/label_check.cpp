@@ -222,7 +222,7 @@ bool meet(const std::vector<TissueId>& neighbours, const std::vector<TissueId>& 
   });
 }
 
-void judge_all(const scenario::Structure& one, const scenario::Lesson& lesson,
+void judge_all(const scenario::Structure& one, const scenario::CaseLesson& lesson,
                const volume::TissueTable& table, LabelFinding& finding) {
   const LabelFigures& f = finding.figures;
   std::vector<std::string>& faults = finding.faults;
@@ -281,7 +281,7 @@ std::vector<TissueId> tissues_of(const scenario::Structure& structure,
   return found;
 }
 
-Result<std::vector<LabelFinding>> check_labels(const scenario::Lesson& lesson,
+Result<std::vector<LabelFinding>> check_labels(const scenario::CaseLesson& lesson,
                                                const volume::Bone& bone,
                                                const std::vector<std::string>& accepted,
                                                Progress& progress) {
@@ -336,7 +336,7 @@ std::vector<scenario::Landmark> landmarks_of(const scenario::Case& work) {
   return all;
 }
 
-Result<scenario::Lesson> placed_lesson(const scenario::Case& work) {
+Result<scenario::CaseLesson> placed_lesson(const scenario::Case& work) {
   auto read = scenario::lesson_of(work);
   if (!read) return read.error();
   return scenario::place(std::move(*read), landmarks_of(work), work.name + ".toml");

@@ -55,7 +55,7 @@ struct LabelFinding {
 // One finding for each structure of the lesson. accepted: names of structures. Error: interrupted,
 // or a name in `accepted` that no structure has.
 [[nodiscard]] Result<std::vector<LabelFinding>> check_labels(
-    const scenario::Lesson& lesson, const volume::Bone& bone,
+    const scenario::CaseLesson& lesson, const volume::Bone& bone,
     const std::vector<std::string>& accepted, Progress& progress);
 
 // Error: one sentence about the first structure whose label is not as expected and not accepted, with
@@ -67,6 +67,6 @@ struct LabelFinding {
 [[nodiscard]] std::vector<scenario::Landmark> landmarks_of(const scenario::Case& work);
 
 // The lesson of a case, with the landmarks of its bone. Error: as scenario::lesson_of() and place().
-[[nodiscard]] Result<scenario::Lesson> placed_lesson(const scenario::Case& work);
+[[nodiscard]] Result<scenario::CaseLesson> placed_lesson(const scenario::Case& work);
 
 }  // namespace burr::workshop

@@ -1,4 +1,4 @@
-// workshop/law_file.h - a law of one's own from a shared library (tick/law_v1.h), and the list of those that
+// workshop/law_file.h - a custom law from a shared library (tick/law_v1.h), and the list of those that
 // passed `burr verify law` on this computer.
 //
 //     auto law = workshop::LawFile::open("my_law.so", "", workshop::law_passes());

@@ -36,7 +36,7 @@ void describe(const volume::Bone& bone, const char* format, importing::ImportSum
   s.solid_mm3 = volume::volume_of(bone) * 1e9;
 }
 
-Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progress& progress) {
+Result<importing::Imported> open_phantom(const scenario::BoneRecipe& recipe, Progress& progress) {
   const std::string name = scenario::phantom_name(recipe.source);
   if (!recipe.series.empty() || !recipe.spacing_mm.isZero(0) || recipe.region || recipe.iso ||
       recipe.allow_missing || recipe.as_it_is || !recipe.labels.empty() ||
@@ -70,8 +70,8 @@ Result<importing::Imported> open_phantom(const scenario::Recipe& recipe, Progres
 }
 
 // A bone that burr wrote whole (write_prebuilt_phantom()).
-Result<importing::Imported> open_whole(const scenario::Recipe& recipe) {
-  scenario::Recipe usual;
+Result<importing::Imported> open_whole(const scenario::BoneRecipe& recipe) {
+  scenario::BoneRecipe usual;
   usual.source = recipe.source;
   usual.reserve_bricks = recipe.reserve_bricks;
   if (!(recipe == usual))
@@ -95,12 +95,12 @@ bool is_whole_bone(const std::string& source) {
   return !scenario::is_phantom(source) && std::filesystem::path(source).extension() == ".bone";
 }
 
-io::ReadOptions read_options(const scenario::Recipe& recipe) {
+io::ReadOptions read_options(const scenario::BoneRecipe& recipe) {
   return {recipe.series,     recipe.spacing_mm,   recipe.check_values,
           recipe.check_scan, recipe.read_seconds, recipe.read_memory_mb};
 }
 
-Result<importing::Imported> open_bone(const scenario::Recipe& recipe, Progress& progress,
+Result<importing::Imported> open_bone(const scenario::BoneRecipe& recipe, Progress& progress,
                                       const io::Scan* scan, bool keep_greys) {
   for (const std::string& input : {recipe.source, recipe.labels, recipe.materials})
     base::note_input(input);

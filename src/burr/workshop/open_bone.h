@@ -17,14 +17,14 @@
 namespace burr::workshop {
 
 // The part of the recipe that the reader of the file needs.
-[[nodiscard]] io::ReadOptions read_options(const scenario::Recipe& recipe);
+[[nodiscard]] io::ReadOptions read_options(const scenario::BoneRecipe& recipe);
 
 // True: a .bone file, which holds a bone to the bit, as `burr phantom --out X.bone` writes it.
 [[nodiscard]] bool is_whole_bone(const std::string& source);
 
 // scan: the content of the source if it has been read before; it is then not read again.
 // keep_greys: keep the values of a grey scan, so that slices can be shown.
-[[nodiscard]] Result<importing::Imported> open_bone(const scenario::Recipe& recipe,
+[[nodiscard]] Result<importing::Imported> open_bone(const scenario::BoneRecipe& recipe,
                                                     Progress& progress,
                                                     const io::Scan* scan = nullptr,
                                                     bool keep_greys = false);

@@ -51,7 +51,8 @@ void add_shape(const scenario::Shape& shape, std::vector<Ball>& balls) {
   }
 }
 
-void add_named(const std::string& name, const scenario::Lesson& lesson, std::vector<Ball>& balls) {
+void add_named(const std::string& name, const scenario::CaseLesson& lesson,
+               std::vector<Ball>& balls) {
   if (const scenario::CaseRegion* region = lesson.region(name))
     for (const scenario::Shape& shape : region->add) add_shape(shape, balls);
   // a curve is for orientation: a line on the bone that skin may cover
@@ -62,7 +63,7 @@ void add_named(const std::string& name, const scenario::Lesson& lesson, std::vec
 }  // namespace
 
 std::optional<render::Opening> opening_of(const scenario::Case& work,
-                                          const scenario::Lesson* lesson) {
+                                          const scenario::CaseLesson* lesson) {
   if (!work.at || !work.into) return std::nullopt;
   const std::string phantom = scenario::without_variant(work.phantom);
   if (phantom == "block" || phantom == "ball" || phantom == "tooth") return std::nullopt;

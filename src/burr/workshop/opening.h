@@ -17,7 +17,7 @@ namespace burr::workshop {
 // placed; nullptr: the opening is 18 mm in radius. The circle holds the entry, and every ball, tube,
 // box and point that a step names, with 2 mm to spare.
 [[nodiscard]] std::optional<render::Opening> opening_of(const scenario::Case& work,
-                                                        const scenario::Lesson* lesson);
+                                                        const scenario::CaseLesson* lesson);
 
 // The same with the lesson of the case read here; nothing also where it cannot be read.
 [[nodiscard]] std::optional<render::Opening> opening_of(const scenario::Case& work);

@@ -12,7 +12,8 @@ using math::Ijk;
 using math::Quat;
 using math::Vec3;
 
-const scenario::PlannedPiece* plan_of(const scenario::Lesson& lesson, const volume::Bone& piece) {
+const scenario::PlannedPiece* plan_of(const scenario::CaseLesson& lesson,
+                                      const volume::Bone& piece) {
   constexpr double kNear = 3e-3;  // [m]
   const double voxel = piece.grid().voxel;
   double least = kNear;

@@ -11,7 +11,7 @@ namespace burr::workshop {
 
 // The planned move of this piece: that whose place lies in the piece, or nearest to it and at most
 // 3 mm away. nullptr: the case plans none. piece: as it came free.
-[[nodiscard]] const scenario::PlannedPiece* plan_of(const scenario::Lesson& lesson,
+[[nodiscard]] const scenario::PlannedPiece* plan_of(const scenario::CaseLesson& lesson,
                                                     const volume::Bone& piece);
 
 struct OffPlan {

@@ -16,9 +16,9 @@ constexpr double kDiameterMm = 5, kRpm = 40'000;  // if neither user nor case gi
 
 double rad_s(double rpm) { return rpm * 2 * std::numbers::pi / 60; }
 
-Result<Prepared> prepare(const scenario::Recipe& recipe, const scenario::Case* work,
-                         const Tool& tool, const io::Scan* scan, bool keep_greys,
-                         Progress& progress) {
+Result<PreparedBone> prepare(const scenario::BoneRecipe& recipe, const scenario::Case* work,
+                             const Tool& tool, const io::Scan* scan, bool keep_greys,
+                             Progress& progress) {
   if (work != nullptr)
     if (const Status set = check_session(*work); !set) return set.error();
   auto made = open_bone(recipe, progress, scan, keep_greys);
@@ -35,7 +35,7 @@ Result<Prepared> prepare(const scenario::Recipe& recipe, const scenario::Case* w
                                         work ? work->at : nowhere, work ? work->into : nowhere);
   if (!place) return place.error();
 
-  Prepared out;
+  PreparedBone out;
   fit_burr(diameter_mm, made->bone->grid().voxel, made->summary.notices);
   out.bone = std::move(made->bone);
   out.place = *place;
@@ -56,17 +56,17 @@ Result<Prepared> prepare(const scenario::Recipe& recipe, const scenario::Case* w
 
 }  // namespace
 
-Result<Prepared> prepare(const scenario::Recipe& recipe, Progress& progress, const Tool& tool,
-                         const io::Scan* scan, bool keep_greys) {
+Result<PreparedBone> prepare(const scenario::BoneRecipe& recipe, Progress& progress,
+                             const Tool& tool, const io::Scan* scan, bool keep_greys) {
   return prepare(recipe, nullptr, tool, scan, keep_greys, progress);
 }
 
-Result<Prepared> prepare(const scenario::Case& work, Progress& progress, const Tool& tool,
-                         scenario::Recipe recipe, const io::Scan* scan, bool keep_greys) {
+Result<PreparedBone> prepare(const scenario::Case& work, Progress& progress, const Tool& tool,
+                             scenario::BoneRecipe recipe, const io::Scan* scan, bool keep_greys) {
   return prepare(recipe_of(work, std::move(recipe)), &work, tool, scan, keep_greys, progress);
 }
 
-scenario::Recipe recipe_of(const scenario::Case& work, scenario::Recipe recipe) {
+scenario::BoneRecipe recipe_of(const scenario::Case& work, scenario::BoneRecipe recipe) {
   recipe.source = work.phantom.empty() ? work.volume : scenario::phantom_source(work.phantom);
   if (recipe.voxel_mm == 0) recipe.voxel_mm = scenario::voxel_mm(work);
   return recipe;
@@ -82,7 +82,7 @@ void fit_burr(double& diameter_mm, double voxel, std::vector<std::string>& notic
   diameter_mm = least_mm;
 }
 
-sim::SessionSettings settings_of(const Prepared& prepared, bool realtime) {
+sim::SessionSettings settings_of(const PreparedBone& prepared, bool realtime) {
   sim::SessionSettings settings;
   settings.servo.burr.radius = prepared.burr.radius;
   settings.servo.burr.kind = prepared.burr.kind;
@@ -93,7 +93,7 @@ sim::SessionSettings settings_of(const Prepared& prepared, bool realtime) {
   return settings;
 }
 
-Result<std::unique_ptr<sim::Session>> begin(Prepared& prepared,
+Result<std::unique_ptr<sim::Session>> begin(PreparedBone& prepared,
                                             std::unique_ptr<device::Device> hand,
                                             const sim::SessionSettings& settings,
                                             Progress& progress) {
@@ -110,8 +110,8 @@ Result<std::unique_ptr<sim::Session>> begin_by_itself(std::unique_ptr<volume::Bo
                             progress);
 }
 
-Result<std::unique_ptr<sim::Session>> begin_by_itself(Prepared& prepared, const std::string& motion,
-                                                      double seconds,
+Result<std::unique_ptr<sim::Session>> begin_by_itself(PreparedBone& prepared,
+                                                      const std::string& motion, double seconds,
                                                       const sim::SessionSettings& settings,
                                                       Progress& progress) {
   auto path = surgeon::motion(motion, prepared.place, settings.servo.burr.radius, seconds);

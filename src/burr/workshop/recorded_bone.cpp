@@ -20,9 +20,10 @@ namespace {
 constexpr double kLeastLoss = 1e-11;  // a hundredth of a mm^3  [m^3]
 
 // How the bone was made, with what only the user has: the file, tables, a series by its UID.
-Result<scenario::Recipe> recipe_of(const scenario::Recipe& recorded, const scenario::Recipe& given,
-                                   const std::string& where) {
-  scenario::Recipe recipe = recorded;
+Result<scenario::BoneRecipe> recipe_of(const scenario::BoneRecipe& recorded,
+                                       const scenario::BoneRecipe& given,
+                                       const std::string& where) {
+  scenario::BoneRecipe recipe = recorded;
   recipe.source = given.source;
   recipe.labels = given.labels;
   recipe.materials = given.materials;
@@ -64,13 +65,14 @@ std::vector<TissueLoss> losses_of(const volume::TissueTable& table,
 }  // namespace
 
 Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
-                                              const scenario::Recipe& given, Progress& progress) {
+                                              const scenario::BoneRecipe& given,
+                                              Progress& progress) {
   base::note_input(player.path());
   const record::SessionInfo& info = player.info();
   if (info.embedded && given.source.empty())
     return player.embedded_bone(static_cast<std::size_t>(info.volume.recipe.reserve_bricks));
 
-  const scenario::Recipe& recorded = info.volume.recipe;
+  const scenario::BoneRecipe& recorded = info.volume.recipe;
   auto recipe = recipe_of(recorded, given, player.path());
   if (!recipe) return recipe.error();
   if (scenario::is_phantom(recorded.source) && given.source.empty()) {
@@ -94,10 +96,11 @@ Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
 }
 
 std::shared_ptr<const volume::Greys> greys_of(const record::Player& player,
-                                              const scenario::Recipe& given, Progress& progress) {
+                                              const scenario::BoneRecipe& given,
+                                              Progress& progress) {
   const auto print = record::fingerprint(given.source);
   if (!print || *print != player.info().volume.source_fingerprint) return nullptr;
-  scenario::Recipe answered = given;  // what was asked when the recording was made
+  scenario::BoneRecipe answered = given;  // what was asked when the recording was made
   answered.allow_missing = player.info().volume.recipe.allow_missing;
   answered.as_it_is = player.info().volume.recipe.as_it_is;
   answered.check_values = player.info().volume.recipe.check_values;
@@ -108,7 +111,8 @@ std::shared_ptr<const volume::Greys> greys_of(const record::Player& player,
   return plan ? importing::keep_greys(*scan, plan->iso, progress) : nullptr;
 }
 
-Result<Watched> watch(record::Player& player, const scenario::Recipe& given, Progress& progress) {
+Result<Watched> watch(record::Player& player, const scenario::BoneRecipe& given,
+                      Progress& progress) {
   if (player.end_tick() == player.first_tick())
     return error(fmt::format("{}: this recording holds no tick", player.path()));
   auto settings = sim::settings_of(player.info(), player.path());
@@ -125,7 +129,7 @@ std::vector<TissueLoss> losses(const volume::Bone& before, const volume::Bone& n
 }
 
 Result<std::vector<TissueLoss>> removed_by_tissue(record::Player& player, Progress& progress,
-                                                  const scenario::Recipe& given) {
+                                                  const scenario::BoneRecipe& given) {
   auto bone = bone_of(player, given, progress);
   if (!bone) return bone.error();
   const std::vector<double> before = volumes_of(**bone);

@@ -30,13 +30,13 @@ namespace burr::workshop {
 // empty, the scan is searched for in BURR_VOLUME_PATH, beside the recording, and in the list of the
 // scans of this computer (record/scan_list.h).
 [[nodiscard]] Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
-                                                            const scenario::Recipe& given,
+                                                            const scenario::BoneRecipe& given,
                                                             Progress& progress);
 
 // The grey values of the scan, for slices, read again from given.source. nullptr: it is not a grey
 // scan, not the scan of this recording, or cannot be read.
 [[nodiscard]] std::shared_ptr<const volume::Greys> greys_of(const record::Player& player,
-                                                            const scenario::Recipe& given,
+                                                            const scenario::BoneRecipe& given,
                                                             Progress& progress);
 
 // All that is needed to show a recording. player.bone_at(t, *bone) sets the bone to any moment.
@@ -45,7 +45,7 @@ struct Watched {
   sim::Recorded settings;
   record::Timeline timeline;
 };
-[[nodiscard]] Result<Watched> watch(record::Player& player, const scenario::Recipe& given,
+[[nodiscard]] Result<Watched> watch(record::Player& player, const scenario::BoneRecipe& given,
                                     Progress& progress);
 
 // One tissue whose volume has changed.
@@ -57,8 +57,7 @@ struct TissueLoss {
 // Tissues whose volume differs by more than 0.01 mm^3, largest loss first.
 [[nodiscard]] std::vector<TissueLoss> losses(const volume::Bone& before, const volume::Bone& now);
 // The same for a whole recording; bone_of() finds its bone.
-[[nodiscard]] Result<std::vector<TissueLoss>> removed_by_tissue(record::Player& player,
-                                                                Progress& progress,
-                                                                const scenario::Recipe& given = {});
+[[nodiscard]] Result<std::vector<TissueLoss>> removed_by_tissue(
+    record::Player& player, Progress& progress, const scenario::BoneRecipe& given = {});
 
 }  // namespace burr::workshop

@@ -17,7 +17,7 @@ constexpr std::size_t kBrickRows = 8192;  // changed bricks that may wait for th
 
 }  // namespace
 
-About about(const Prepared& prepared, const volume::Bone& bone, const std::string& motion) {
+About about(const PreparedBone& prepared, const volume::Bone& bone, const std::string& motion) {
   About out;
   out.recipe = prepared.recipe;
   out.format = prepared.summary.format;

@@ -27,7 +27,7 @@ namespace burr::workshop {
 
 // What goes into a recording and is not known to the session itself.
 struct About {
-  scenario::Recipe recipe;        // its paths are not written into the file
+  scenario::BoneRecipe recipe;    // its paths are not written into the file
   std::string format;             // of the source: importing::ImportSummary::format
   std::string motion;             // "pocket", "hand path", or the name of a device
   bool embed = false;             // the bone goes into the file
@@ -40,7 +40,7 @@ struct About {
 };
 // For a session that was made from `prepared`, with the tissues that its case spares. bone: that of
 // the session.
-[[nodiscard]] About about(const Prepared& prepared, const volume::Bone& bone,
+[[nodiscard]] About about(const PreparedBone& prepared, const volume::Bone& bone,
                           const std::string& motion);
 
 // Records the session from its next tick on. on_trouble: called at most once, on the recorder's

@@ -1,6 +1,6 @@
 #include "burr/workshop/second_tool.h"
 
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/workshop/tool_looks.h"
 #include "burr/workshop/work_view.h"
 

@@ -51,22 +51,22 @@ const sound::SoundState& SoundTracker::update(const tick::TickRow& row,
   now_.irrigated = row.tool.irrigated;
   if (to_spare_) now_.to_spare = distance_of(row, tool);
 
-  Account account = {row.tick, row.ledger.removed, row.ledger.energy};
+  Sums sums = {row.tick, row.ledger.removed, row.ledger.energy};
   if (other_ && second != nullptr) {
     static_cast<void>(other_->update(*second));
     now_.to_spare = std::min(now_.to_spare, std::exchange(other_->now_.to_spare, kFar));
-    // the session's account has what both removed
-    account.removed -= second->ledger.removed;
-    account.energy -= second->ledger.energy;
+    // the session's sums has what both removed
+    sums.removed -= second->ledger.removed;
+    sums.energy -= second->ledger.energy;
   }
-  if (!before_ || account.tick < before_->tick) before_ = account;  // the first; a jump back
-  const double seconds = static_cast<double>(account.tick - before_->tick) / rate_hz_;
+  if (!before_ || sums.tick < before_->tick) before_ = sums;  // the first; a jump back
+  const double seconds = static_cast<double>(sums.tick - before_->tick) / rate_hz_;
   if (seconds < kOver) return now_;
-  const double removed = std::max(0.0, account.removed - before_->removed);
-  const double energy = std::max(0.0, account.energy - before_->energy);
+  const double removed = std::max(0.0, sums.removed - before_->removed);
+  const double energy = std::max(0.0, sums.energy - before_->energy);
   now_.removal_m3_s = removed / seconds;
   if (removed > 0) now_.hardness_j_m3 = energy / removed;
-  before_ = account;
+  before_ = sums;
   return now_;
 }
 

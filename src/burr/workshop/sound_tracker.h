@@ -39,7 +39,7 @@ class SoundTracker {
   }
 
  private:
-  struct Account {
+  struct Sums {
     std::uint64_t tick = 0;
     double removed = 0, energy = 0;
   };
@@ -56,7 +56,7 @@ class SoundTracker {
   std::vector<Tool> tools_;
   double rate_hz_;
   ToSpare to_spare_;
-  std::optional<Account> before_;
+  std::optional<Sums> before_;
   sound::SoundState now_;
   std::unique_ptr<SoundTracker> other_;  // of the other hand
 };

@@ -7,7 +7,7 @@
 
 #include "burr/device/crtk/leader.h"
 #include "device/fake/fake_crtk.h"
-#include "device/players/player.h"
+#include "device/players/device_player.h"
 
 namespace burr::test {
 

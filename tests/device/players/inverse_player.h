@@ -8,7 +8,7 @@
 
 #include "burr/device/haply/inverse.h"
 #include "device/fake/fake_haply.h"
-#include "device/players/player.h"
+#include "device/players/device_player.h"
 
 namespace burr::test {
 

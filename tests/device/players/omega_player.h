@@ -12,8 +12,8 @@
 
 #include "burr/device/forcedimension/omega.h"
 #include "device/fake/fake_dhd.h"
-#include "device/players/player.h"
-#include "support/places.h"
+#include "device/players/device_player.h"
+#include "support/test_places.h"
 
 namespace burr::test {
 

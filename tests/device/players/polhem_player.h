@@ -9,7 +9,7 @@
 
 #include "burr/device/polhem/polhem.h"
 #include "device/fake/fake_polhem.h"
-#include "device/players/player.h"
+#include "device/players/device_player.h"
 
 namespace burr::test {
 

@@ -12,8 +12,8 @@
 #include "burr/device/openhaptics/touch.h"
 #include "burr/haptics/touch_method.h"
 #include "device/fake/fake_hd.h"
-#include "device/players/player.h"
-#include "support/places.h"
+#include "device/players/device_player.h"
+#include "support/test_places.h"
 
 namespace burr::test {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "render/openxr/fake_openxr.h"
-#include "support/places.h"
+#include "support/test_places.h"
 
 namespace burr::test {
 

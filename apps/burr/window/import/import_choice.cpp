@@ -277,7 +277,7 @@ SessionMemory session_memory(const io::Scan& scan, const importing::ImportSummar
   constexpr double kSession = 20, kSpared = 40;                              // [MB]
   const Extent extent = extent_of(scan, plan);
   const double bone = (extent.bricks * (plan.labels ? kLabelBrick : kGreyBrick) +
-                       static_cast<double>(scenario::Recipe{}.reserve_bricks) * kReserved) /
+                       static_cast<double>(scenario::BoneRecipe{}.reserve_bricks) * kReserved) /
                       kMb;
   const double region = plan.roi_size.cast<double>().prod() / kMb,
                made = plan.size.cast<double>().prod() / kMb;
@@ -312,7 +312,7 @@ double free_memory_mb() {
   return free;
 }
 
-Result<Planned> plan_session(const io::Scan& scan, const scenario::Recipe& recipe) {
+Result<Planned> plan_session(const io::Scan& scan, const scenario::BoneRecipe& recipe) {
   auto plan = importing::plan_import(scan, recipe);
   if (!plan) return plan.error();
   Planned planned{std::move(*plan), {}};
@@ -320,7 +320,7 @@ Result<Planned> plan_session(const io::Scan& scan, const scenario::Recipe& recip
   return planned;
 }
 
-Result<OpenedScan> open_scan(const scenario::Recipe& recipe, Progress& progress) {
+Result<OpenedScan> open_scan(const scenario::BoneRecipe& recipe, Progress& progress) {
   auto read = io::read_scan(recipe.source, workshop::read_options(recipe), progress);
   if (!read) return read.error();
   auto scan = std::make_shared<const io::Scan>(std::move(*read));

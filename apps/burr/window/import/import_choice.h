@@ -99,16 +99,17 @@ struct Planned {
   importing::ImportSummary import;
   SessionMemory memory;
 };
-[[nodiscard]] Result<Planned> plan_session(const io::Scan& scan, const scenario::Recipe& recipe);
+[[nodiscard]] Result<Planned> plan_session(const io::Scan& scan,
+                                           const scenario::BoneRecipe& recipe);
 
 struct OpenedScan {
-  scenario::Recipe volume;  // as requested
+  scenario::BoneRecipe volume;  // as requested
   std::shared_ptr<const io::Scan> scan;
   Greys greys;                                 // for a grey scan
   std::vector<importing::TissueFound> labels;  // for a label map
   Result<Planned> planned;                     // with the recipe `volume`
 };
 // Error: the file cannot be read, or is a picture and not a volume.
-[[nodiscard]] Result<OpenedScan> open_scan(const scenario::Recipe& recipe, Progress& progress);
+[[nodiscard]] Result<OpenedScan> open_scan(const scenario::BoneRecipe& recipe, Progress& progress);
 
 }  // namespace burr::app

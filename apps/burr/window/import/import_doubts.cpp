@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/import/import_page.h"
 
 namespace burr::app {
@@ -126,7 +126,7 @@ void ImportPage::keep(const scenario::Keep& parts, double drop_islands_mm3) {
 void ImportPage::keep_here(const math::Vec3& voxel) {
   if (!parts_ || recount_) return;
   const io::Scan& scan = *opened_.scan;
-  scenario::Recipe here = volume_;
+  scenario::BoneRecipe here = volume_;
   here.keep = {0, {scan.origin_mm + scan.axes * voxel.cwiseProduct(scan.spacing_mm)}};
   here.drop_islands_mm3 = 0;
   if (!importing::choose_parts(parts_->parts, here, parts_->place)) {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "shared/work.h"
 #include "window/import/series_page.h"
 
@@ -312,7 +312,7 @@ void ImportPage::work() {
 
 namespace {
 
-Result<OpenedScan> read_by_page(Desk& desk, const scenario::Recipe& volume,
+Result<OpenedScan> read_by_page(Desk& desk, const scenario::BoneRecipe& volume,
                                 const std::string& title, bool& closed) {
   return load<OpenedScan>(
       desk, title, [volume](Progress& progress) { return open_scan(volume, progress); }, closed);
@@ -327,7 +327,7 @@ Status choose_series(Desk& desk, OpenedScan& opened, const std::string& title, d
   if (closed) return fine();
   if (!choice->series) return error(Trouble::interrupted, "stopped");
   if (*choice->series == static_cast<std::size_t>(opened.scan->series_taken)) return fine();
-  scenario::Recipe other = opened.volume;
+  scenario::BoneRecipe other = opened.volume;
   other.series = fmt::format("#{}", *choice->series + 1);
   auto reopened = read_by_page(desk, other, title, closed);
   if (closed) return fine();
@@ -336,18 +336,18 @@ Status choose_series(Desk& desk, OpenedScan& opened, const std::string& title, d
   return fine();
 }
 
-Result<Ready> ready_from(WorkOptions options, const io::Scan& scan, Progress& progress) {
+Result<WindowSession> ready_from(WorkOptions options, const io::Scan& scan, Progress& progress) {
   if (const Status taken = take_case(options); !taken) return taken.error();
   options.keep_greys = true;
   auto work = open_work(options, progress, &scan);
   if (!work) return work.error();
-  return make_ready(options, std::move(*work), progress);
+  return make_window_session(options, std::move(*work), progress);
 }
 
 }  // namespace
 
-Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& title,
-                           double seconds, bool& closed) {
+Result<WindowSession> open_by_page(Desk& desk, WorkOptions& options, const std::string& title,
+                                   double seconds, bool& closed) {
   const Error gone = error(Trouble::interrupted, "stopped");
   auto opened = read_by_page(desk, options.volume, title, closed);
   if (!opened) return opened.error();
@@ -371,7 +371,7 @@ Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& 
     if (*answer == ImportPage::Answer::other_series ||
         *answer == ImportPage::Answer::other_spacing) {
       const bool series = *answer == ImportPage::Answer::other_series;
-      scenario::Recipe other = series ? options.volume : page->volume();
+      scenario::BoneRecipe other = series ? options.volume : page->volume();
       if (series) other.series = page->series();
       auto reopened = read_by_page(desk, other, title, closed);
       if (closed) return gone;
@@ -383,7 +383,7 @@ Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& 
     }
     WorkOptions chosen = options;
     chosen.volume = page->volume();
-    Result<Ready> ready = load<Ready>(
+    Result<WindowSession> ready = load<WindowSession>(
         desk, title,
         [chosen, scan = page->scan()](Progress& progress) {
           return ready_from(chosen, *scan, progress);

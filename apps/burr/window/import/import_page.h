@@ -1,7 +1,7 @@
 // apps/burr/window/import/import_page.h - the page on which the user prepares a scan: which series,
 // the grey level of the surface, the region, the labels, and how much memory it needs.
 //
-// Every choice is a value of a scenario::Recipe, the same as from the command line. So recordings
+// Every choice is a value of a scenario::BoneRecipe, the same as from the command line. So recordings
 // and kept sessions do not depend on this page.
 // Thread: main.
 #pragma once
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 #include "shared/work.h"
 #include "window/import/import_choice.h"
 #include "window/import/import_preview.h"
@@ -54,7 +54,7 @@ class ImportPage {
   [[nodiscard]] Result<Answer> ask(const std::string& ask, double seconds);
 
   // The recipe that the user chose.
-  [[nodiscard]] const scenario::Recipe& volume() const { return volume_; }
+  [[nodiscard]] const scenario::BoneRecipe& volume() const { return volume_; }
   [[nodiscard]] const std::string& series() const { return series_; }
   [[nodiscard]] const std::shared_ptr<const io::Scan>& scan() const { return opened_.scan; }
 
@@ -118,7 +118,7 @@ class ImportPage {
 
   Desk& desk_;
   OpenedScan opened_;
-  scenario::Recipe volume_;
+  scenario::BoneRecipe volume_;
   std::string series_;  // another series that the user wants, "#2"
   std::optional<double> level_;
   Box box_;
@@ -146,7 +146,8 @@ class ImportPage {
 // All steps from a path to a session: read the scan, show this page, make the bone. Afterwards
 // `options` contains what the user chose. Error: as load(); also Trouble::interrupted if the user
 // went back.
-[[nodiscard]] Result<Ready> open_by_page(Desk& desk, WorkOptions& options, const std::string& title,
-                                         double seconds, bool& closed);
+[[nodiscard]] Result<WindowSession> open_by_page(Desk& desk, WorkOptions& options,
+                                                 const std::string& title, double seconds,
+                                                 bool& closed);
 
 }  // namespace burr::app

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/import/import_page.h"
 #include "window/import/notice_words.h"
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/import/import_page.h"
 
 namespace burr::app {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/import/import_preview.h"
 
 namespace burr::app {
@@ -70,7 +70,7 @@ void SeriesPage::work() {
   const auto next = std::find(pictures_.begin(), pictures_.end(), std::nullopt);
   if (next == pictures_.end()) return;
   makes_ = static_cast<std::size_t>(next - pictures_.begin());
-  scenario::Recipe one = recipe_;
+  scenario::BoneRecipe one = recipe_;
   one.series = fmt::format("#{}", makes_ + 1);
   one.allow_missing = one.as_it_is = true;  // only for the picture
   making_ =

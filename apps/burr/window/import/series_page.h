@@ -50,7 +50,7 @@ class SeriesPage {
   void move(int by);
 
   Desk& desk_;
-  scenario::Recipe recipe_;
+  scenario::BoneRecipe recipe_;
   std::vector<std::string> lines_, dates_;
   bool dates_shown_ = false;
   std::vector<std::optional<render::Image>> pictures_;  // none: not made yet; empty: there is none

@@ -1,6 +1,6 @@
 #include "window/mill/cross_button.h"
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 

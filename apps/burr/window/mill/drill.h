@@ -12,7 +12,7 @@
 #include "burr/render/scene.h"
 #include "burr/scenario/rack.h"
 #include "burr/sim/session.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/hud.h"
 #include "window/parts/measuring.h"
 

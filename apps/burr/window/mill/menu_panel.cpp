@@ -1,6 +1,6 @@
 #include "window/mill/menu_panel.h"
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/titled_panel.h"
 

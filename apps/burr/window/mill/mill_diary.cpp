@@ -2,7 +2,7 @@
 #include "burr/record/diary.h"
 #include "burr/render/stereo.h"
 #include "burr/workshop/seen.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 
 namespace burr::app {

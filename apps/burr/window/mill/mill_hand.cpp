@@ -11,8 +11,8 @@
 #include "burr/render/pick.h"
 #include "burr/tick/second_hand.h"
 #include "burr/workshop/work_view.h"
-#include "shared/make_ready.h"
-#include "shared/words.h"
+#include "shared/window_session.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 
 namespace burr::app {

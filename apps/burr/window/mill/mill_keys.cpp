@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 #include "window/ui/printed_keys.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/task_panel.h"

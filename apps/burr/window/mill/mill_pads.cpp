@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 
 namespace burr::app {

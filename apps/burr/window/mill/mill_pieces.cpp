@@ -5,7 +5,7 @@
 
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/suction_hand.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 
 namespace burr::app {

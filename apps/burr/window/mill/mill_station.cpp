@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "burr/render/pick.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 #include "window/station/station_link.h"
 

@@ -15,7 +15,7 @@
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/fault_file.h"
 #include "burr/workshop/work_view.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 #include "window/mill/steps_panel.h"
 #include "window/mill/views_bar.h"

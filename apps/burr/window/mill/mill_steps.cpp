@@ -6,7 +6,7 @@
 #include "burr/guidance/suits.h"
 #include "burr/record/diary.h"
 #include "burr/record/private_text.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 #include "window/mill/steps_panel.h"
 #include "window/parts/see_through.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "burr/workshop/tool_places.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 #include "window/mill/rack_panel.h"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 
 namespace burr::app {

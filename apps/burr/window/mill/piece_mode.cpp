@@ -11,7 +11,7 @@
 
 #include "burr/math/turn.h"
 #include "burr/rt/flags.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {
@@ -49,7 +49,7 @@ double degrees_of(const Quat& q) { return math::rotation_vector(q).norm() / kDeg
 
 }  // namespace
 
-PieceMode::PieceMode(sim::Session& session, const scenario::Lesson* lesson)
+PieceMode::PieceMode(sim::Session& session, const scenario::CaseLesson* lesson)
     : session_(session), lesson_(lesson), mover_(session) {}
 
 std::string PieceMode::look(bool open, const tick::TickRow& row) {

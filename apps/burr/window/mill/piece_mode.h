@@ -29,7 +29,7 @@ class PieceMode {
   static constexpr double kTurn = 1, kFineTurn = 0.2;          // of a key           [degree]
 
   // Before the session starts. lesson: nullptr without a case; must outlive this.
-  PieceMode(sim::Session& session, const scenario::Lesson* lesson);
+  PieceMode(sim::Session& session, const scenario::CaseLesson* lesson);
 
   // Once a picture. What the user should read; empty: nothing new. open: the panel is shown.
   // row: the newest one.
@@ -97,7 +97,7 @@ class PieceMode {
   void frame(render::Scene& scene, const edit::PieceStore::Found& piece, double line) const;
 
   sim::Session& session_;
-  const scenario::Lesson* lesson_;
+  const scenario::CaseLesson* lesson_;
   sim::PieceMover mover_;
   std::shared_ptr<const std::vector<edit::PieceStore::Found>> list_;
   std::vector<std::array<math::Vec3, 2>> boxes_;  // of the pieces of the list, where they came free

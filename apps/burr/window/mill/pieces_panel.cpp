@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/titled_panel.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/side_panel.h"
 #include "window/mill/titled_panel.h"
 #include "window/parts/hud.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/cross_button.h"
 #include "window/parts/hud.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/measuring.h"
 
 namespace burr::app {
@@ -14,7 +14,7 @@ constexpr render::Colour kLit = {guidance::kLitColour[0], guidance::kLitColour[1
                                  guidance::kLitColour[2]};
 }  // namespace
 
-void StepLight::on(const scenario::Step& step, const scenario::Lesson& lesson,
+void StepLight::on(const scenario::Step& step, const scenario::CaseLesson& lesson,
                    const volume::TissueTable& tissues, render::Scene& scene) {
   off(scene);
   on_ = true;

@@ -22,7 +22,7 @@ namespace burr::app {
 class StepLight {
  public:
   [[nodiscard]] bool is_on() const { return on_; }
-  void on(const scenario::Step& step, const scenario::Lesson& lesson,
+  void on(const scenario::Step& step, const scenario::CaseLesson& lesson,
           const volume::TissueTable& tissues, render::Scene& scene);
   void off(render::Scene& scene);
   void draw(const Ui& ui, const render::Camera& camera) const;

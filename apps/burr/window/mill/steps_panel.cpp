@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "burr/guidance/suits.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/side_panel.h"
 #include "window/parts/hud.h"
 

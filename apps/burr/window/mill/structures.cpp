@@ -4,7 +4,7 @@
 #include <array>
 
 #include "burr/render/unseen.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 
@@ -20,7 +20,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool must_be_spared(const volume::Tissue& tissue, const scenario::Lesson* lesson,
+bool must_be_spared(const volume::Tissue& tissue, const scenario::CaseLesson* lesson,
                     const scenario::Case* work_case) {
   if (work_case == nullptr) return tissue.spare;
   if (has(work_case->spare, tissue.name)) return true;
@@ -38,7 +38,7 @@ int group(const Structures::Row& row) {
   return row.kind == TissueKind::soft ? 1 : row.kind == TissueKind::solid ? 2 : 3;
 }
 
-std::vector<Structures::Row> rows_of(const volume::Bone& bone, const scenario::Lesson* lesson,
+std::vector<Structures::Row> rows_of(const volume::Bone& bone, const scenario::CaseLesson* lesson,
                                      const scenario::Case* work_case) {
   std::vector<Structures::Row> rows;
   const auto& tissues = bone.tissues().tissues;
@@ -58,7 +58,7 @@ std::vector<bool> wanted(const std::vector<Structures::Row>& rows) {
 
 }  // namespace
 
-Structures::Structures(const volume::Bone& bone, const scenario::Lesson* lesson,
+Structures::Structures(const volume::Bone& bone, const scenario::CaseLesson* lesson,
                        const scenario::Case* work_case)
     : bone_(bone), rows_(rows_of(bone, lesson, work_case)), map_(bone, wanted(rows_)) {
   std::erase_if(rows_, [this](const Row& row) { return map_.voxels(row.id) == 0; });

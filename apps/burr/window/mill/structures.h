@@ -34,7 +34,7 @@ class Structures {
   };
 
   // lesson, work_case: of the case, for what must be spared; nullptr: none. Read only here.
-  Structures(const volume::Bone& bone, const scenario::Lesson* lesson,
+  Structures(const volume::Bone& bone, const scenario::CaseLesson* lesson,
              const scenario::Case* work_case);
 
   // What must be spared comes first, then soft tissue, solid tissue, air spaces with a name.

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "burr/workshop/second_tool.h"
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 
 namespace burr::app {
 

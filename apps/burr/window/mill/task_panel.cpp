@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/side_panel.h"
 #include "window/parts/hud.h"
 
@@ -30,7 +30,7 @@ Word word_of(const scenario::Target& target) {
   return Word::task_open;
 }
 
-std::vector<Line> lines_of(const scenario::Case& work, const scenario::Lesson* lesson) {
+std::vector<Line> lines_of(const scenario::Case& work, const scenario::CaseLesson* lesson) {
   using Letter = Ui::Letter;
   std::vector<Line> lines;
   const std::string title = lesson != nullptr ? lesson->title.in(spoken().code) : work.title,
@@ -61,7 +61,7 @@ std::string flowing(std::string text) {
 
 }  // namespace
 
-bool draw_task(Ui& ui, const scenario::Case& work, const scenario::Lesson* lesson) {
+bool draw_task(Ui& ui, const scenario::Case& work, const scenario::CaseLesson* lesson) {
   const float u = ui.unit(), wide = kSideWide * u, inside = wide - 28 * u, gap = 6 * u;
   std::vector<Line> lines = lines_of(work, lesson);
   float high = 2 * 12 * u - gap;

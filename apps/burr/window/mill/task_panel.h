@@ -12,6 +12,7 @@ namespace burr::app {
 
 // lesson: of the case, for title and description in the user's language; nullptr: in English. True:
 // it was clicked, and goes away.
-[[nodiscard]] bool draw_task(Ui& ui, const scenario::Case& work, const scenario::Lesson* lesson);
+[[nodiscard]] bool draw_task(Ui& ui, const scenario::Case& work,
+                             const scenario::CaseLesson* lesson);
 
 }  // namespace burr::app

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "burr/workshop/tool_picture.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 

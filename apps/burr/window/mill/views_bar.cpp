@@ -4,7 +4,7 @@
 #include <string>
 
 #include "burr/render/microscope.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/hud.h"
 
 namespace burr::app {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "window/mill/views.h"
+#include "window/mill/work_views.h"
 #include "window/ui/ui.h"
 
 namespace burr::app {

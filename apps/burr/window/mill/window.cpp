@@ -11,7 +11,7 @@
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/work_view.h"
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/mill/mill.h"
 
 namespace burr::app {

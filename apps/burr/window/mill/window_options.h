@@ -40,7 +40,7 @@ struct WindowOptions {
   Loudspeaker* loudspeaker = nullptr;               // nullptr: no sound
   std::shared_ptr<const volume::Greys> greys = {};  // of the scan; nullptr: slices show the bone
   std::optional<scenario::Case> work_case = {};     // the task; none: no case
-  std::optional<scenario::Lesson> lesson = {};      // of the case, its landmarks placed
+  std::optional<scenario::CaseLesson> lesson = {};  // of the case, its landmarks placed
   record::Mode mode = record::Mode::free;           // what the session is for
   workshop::Allowed allowed =                       // and what it offers
       workshop::allowed_in(record::Mode::free, {}, true);

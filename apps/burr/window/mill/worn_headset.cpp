@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 

@@ -9,7 +9,7 @@
 
 #include "burr/render/picture.h"
 #include "shared/helper_process.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/hud.h"
 #include "window/ui/loading.h"
 #include "window/ui/typed_path.h"

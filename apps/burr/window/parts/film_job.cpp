@@ -56,7 +56,7 @@ std::vector<std::string> command_of(const FilmSource& source, const std::string&
 }  // namespace
 
 FilmSource film_of(sim::Session& session, const std::string& recording,
-                   const scenario::Recipe& volume) {
+                   const scenario::BoneRecipe& volume) {
   FilmSource source;
   source.recording = recording;
   source.volume = volume;

@@ -16,16 +16,16 @@
 namespace burr::app {
 
 struct FilmSource {
-  std::string recording;    // it may still grow: the film ends where it is now
-  scenario::Recipe volume;  // of the scan; empty path: the recording finds it
-  FilmPlan plan;            // until: the length so far, or less
-  bool effects = true;      // burr replay --effects
-  bool as_seen = true;      // the recording says where its user looked, and the film looks there
+  std::string recording;        // it may still grow: the film ends where it is now
+  scenario::BoneRecipe volume;  // of the scan; empty path: the recording finds it
+  FilmPlan plan;                // until: the length so far, or less
+  bool effects = true;          // burr replay --effects
+  bool as_seen = true;  // the recording says where its user looked, and the film looks there
 };
 
 // The source for a film of a running session that is recorded.
 [[nodiscard]] FilmSource film_of(sim::Session& session, const std::string& recording,
-                                 const scenario::Recipe& volume);
+                                 const scenario::BoneRecipe& volume);
 
 // Writes the film into a file (.mp4) or a folder, which is made if needed; pictures of an older film
 // in a folder are deleted first. source.plan.one_file does not matter: the path decides. Returns the

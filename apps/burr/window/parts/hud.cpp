@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "burr/render/governor.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

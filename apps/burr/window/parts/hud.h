@@ -10,7 +10,7 @@
 #include <string>
 
 #include "burr/tick/servo.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/ui/ui.h"
 
 namespace burr::app {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

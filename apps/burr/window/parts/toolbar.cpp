@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/icons.h"
 #include "window/ui/printed_keys.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "burr/tick/servo.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/action.h"
 #include "window/ui/ui.h"
 

@@ -16,7 +16,7 @@
 #include "burr/school/store.h"
 #include "school/products.h"
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/rate/product_bone.h"
 #include "window/rate/rate_panel.h"
 #include "window/ui/loading.h"

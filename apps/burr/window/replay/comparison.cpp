@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/hud.h"
 #include "window/replay/timeline_panel.h"
 

@@ -81,7 +81,7 @@ std::string Facts::name_of(const Part& part) const {
   return before != nullptr ? name_in(before->tissues(), part.tissue) : std::string();
 }
 
-Result<Facts> facts_of(const std::string& recording, const scenario::Recipe& volume,
+Result<Facts> facts_of(const std::string& recording, const scenario::BoneRecipe& volume,
                        Progress& progress) {
   auto player = record::Player::open(recording);
   if (!player) return player.error();

@@ -62,8 +62,8 @@ struct Facts {
 };
 
 // volume: where the bone is found. Errors: the file or its bone cannot be read; interrupted.
-[[nodiscard]] Result<Facts> facts_of(const std::string& recording, const scenario::Recipe& volume,
-                                     Progress& progress);
+[[nodiscard]] Result<Facts> facts_of(const std::string& recording,
+                                     const scenario::BoneRecipe& volume, Progress& progress);
 
 // A row of the table of what two recordings took away; the tissues of both, largest loss first.
 struct LossRow {

@@ -14,8 +14,8 @@
 #include "burr/workshop/piece_look.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
-#include "shared/words.h"
-#include "window/parts/sessions.h"
+#include "shared/word_names.h"
+#include "window/parts/kept_sessions.h"
 
 namespace burr::app {
 
@@ -29,14 +29,14 @@ bool is_recording(const std::string& path) {
 }
 
 Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
-                               const scenario::Recipe& given, Progress& progress) {
+                               const scenario::BoneRecipe& given, Progress& progress) {
   auto player = record::Player::open(file);
   if (!player) return player.error();
   Recorded out;
   out.player = std::move(*player);
 
   // a kept session has a title, and it says where its scan is
-  scenario::Recipe volume = given;
+  scenario::BoneRecipe volume = given;
   out.title = fs::path(file).filename().string();
   std::error_code nobody_asks;
   for (const KeptSession& kept : kept_sessions(state)) {

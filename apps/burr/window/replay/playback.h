@@ -58,7 +58,7 @@ struct Recorded {
 // `burr replay`. Error: not a recording, an empty recording, or its bone cannot be found.
 [[nodiscard]] Result<Recorded> open_recorded(const std::string& file,
                                              const std::filesystem::path& state,
-                                             const scenario::Recipe& given, Progress& progress);
+                                             const scenario::BoneRecipe& given, Progress& progress);
 
 class Playback {
  public:

@@ -1,6 +1,6 @@
 #include "window/replay/replay_bar.h"
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/ui/printed_keys.h"
 
 namespace burr::app {

@@ -10,7 +10,7 @@
 #include "burr/render/picture.h"
 #include "burr/scenario/open_lesson.h"
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/export_page.h"
 #include "window/parts/measuring.h"
 #include "window/replay/comparison.h"

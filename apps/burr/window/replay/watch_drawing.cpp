@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/export_page.h"
 #include "window/parts/hud.h"
 #include "window/parts/measuring.h"

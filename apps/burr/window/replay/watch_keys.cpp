@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/parts/export_page.h"
 #include "window/parts/hud.h"
 #include "window/parts/measuring.h"

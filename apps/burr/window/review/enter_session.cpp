@@ -11,7 +11,7 @@
 #include "burr/school/pending.h"
 #include "burr/school/store.h"
 #include "shared/helper_process.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/review/review.h"
 
 namespace burr::app {

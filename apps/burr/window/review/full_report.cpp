@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 

@@ -16,7 +16,7 @@ class FullReport {
  public:
   // file: the recording; rubric: empty for the built-in one of its case; volume: if the recording does not find its bone; page: the .html to be
   // written, replaced if it is there.
-  FullReport(std::string file, std::string rubric, scenario::Recipe volume, std::string page)
+  FullReport(std::string file, std::string rubric, scenario::BoneRecipe volume, std::string page)
       : file_(std::move(file)),
         rubric_(std::move(rubric)),
         volume_(std::move(volume)),
@@ -38,7 +38,7 @@ class FullReport {
  private:
   void show();
   std::string file_, rubric_;
-  scenario::Recipe volume_;
+  scenario::BoneRecipe volume_;
   std::string page_, note_, language_;
   std::unique_ptr<HelperProcess> child_;
   bool written_ = false;

@@ -15,7 +15,7 @@
 #include "burr/report/marked.h"
 #include "burr/report/questions.h"
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/review/full_report.h"
 #include "window/review/review_page.h"
 #include "window/review/self_marks_page.h"
@@ -61,12 +61,12 @@ Status show_until(Desk& desk, const std::function<bool()>& draw,
 
 // What only the user knows about the bone: a scan of his own. The recording finds a formula, a case and
 // an embedded bone by itself.
-scenario::Recipe own_scan(const scenario::Recipe& volume) {
+scenario::BoneRecipe own_scan(const scenario::BoneRecipe& volume) {
   std::error_code nobody_asks;
   const std::filesystem::path source = volume.source;
   return std::filesystem::exists(source, nobody_asks) && source.extension() != ".toml"
              ? volume
-             : scenario::Recipe();
+             : scenario::BoneRecipe();
 }
 
 class Review {
@@ -177,7 +177,7 @@ class Review {
 
   Desk& desk_;
   const ReviewOptions& options_;
-  scenario::Recipe volume_;
+  scenario::BoneRecipe volume_;
   ReviewPressed pressed_;
   std::optional<report::Report> report_;
   std::string trouble_, note_;

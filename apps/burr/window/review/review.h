@@ -34,7 +34,7 @@ namespace burr::app {
 
 // A moment of the recording that the learner wants to see.
 struct ReviewMoment {
-  scenario::Recipe volume;          // where the bone is, if the recording does not find it
+  scenario::BoneRecipe volume;      // where the bone is, if the recording does not find it
   double at = 0;                    // [s]
   std::optional<math::Vec3> place;  // of the evidence, world; none: it has no place
   math::Vec3 towards =
@@ -48,14 +48,14 @@ using ShowMoment = std::function<Result<Closed>(const ReviewMoment& moment, std:
 struct ReviewOptions {
   std::string file;  // the recording, complete
   std::string title;
-  std::string rubric = {};       // built in, or a .toml file; empty: the built-in one of the case
-  scenario::Recipe volume = {};  // where the bone is, if the recording does not find it
-  bool marks = true;             // may be shown (workshop/allowed.h)
-  bool repeats = false;          // offers to do the case again
-  double seconds = 0;            // closes after this time; 0: never
-  std::string folder = {};       // for pictures of the replay
-  std::string screenshot = {};   // PNG of the last picture; empty: none
-  ShowMoment show = {};          // the page that plays recordings, which this one does not know
+  std::string rubric = {};  // built in, or a .toml file; empty: the built-in one of the case
+  scenario::BoneRecipe volume = {};  // where the bone is, if the recording does not find it
+  bool marks = true;                 // may be shown (workshop/allowed.h)
+  bool repeats = false;              // offers to do the case again
+  double seconds = 0;                // closes after this time; 0: never
+  std::string folder = {};           // for pictures of the replay
+  std::string screenshot = {};       // PNG of the last picture; empty: none
+  ShowMoment show = {};              // the page that plays recordings, which this one does not know
 };
 
 // Until the user leaves: Closed::page, Closed::again or Closed::window. The full report is written

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

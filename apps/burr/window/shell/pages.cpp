@@ -11,13 +11,13 @@
 #include "burr/render/picture.h"
 #include "burr/tick/second_hand.h"
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "shared/work.h"
 #include "window/import/import_page.h"
 #include "window/import/notice_words.h"
 #include "window/mill/mill_keys.h"
 #include "window/mill/window.h"
-#include "window/parts/sessions.h"
+#include "window/parts/kept_sessions.h"
 #include "window/rate/rate_page.h"
 #include "window/replay/playback.h"
 #include "window/review/enter_session.h"
@@ -47,21 +47,21 @@ Status leave_screenshot(Desk& desk, const std::string& file) {
 
 }  // namespace
 
-std::string title_of(const Ready& ready) {
+std::string title_of(const WindowSession& ready) {
   const std::string title = ready.lesson ? ready.lesson->title.in(spoken().code) : std::string();
   return title.empty() ? ready.title : title;
 }
 
-Result<Ready> open_ready(WorkOptions options, Progress& progress) {
+Result<WindowSession> open_ready(WorkOptions options, Progress& progress) {
   const Status taken = take_case(options);
   if (!taken) return taken.error();
   options.keep_greys = true;
   auto work = open_work(options, progress);
   if (!work) return work.error();
-  return make_ready(options, std::move(*work), progress);
+  return make_window_session(options, std::move(*work), progress);
 }
 
-Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window) {
+Result<Closed> mill_with_sound(Desk& desk, WindowSession& ready, const WindowOptions& window) {
   WindowOptions with = window;
   with.spared_distance = ready.spared_distance.get();
   with.title = title_of(ready);
@@ -89,8 +89,8 @@ Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& wi
   return left;
 }
 
-Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options, bool embed,
-                             const WindowOptions& window) {
+Result<Closed> mill_and_keep(Desk& desk, WindowSession& ready, const WorkOptions& options,
+                             bool embed, const WindowOptions& window) {
   std::unique_ptr<Autosave> autosave;
   if (desk.settings.autosave && !desk.places().state.empty()) {
     throw_old_away(desk.places().state, desk.settings);
@@ -142,13 +142,13 @@ Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& option
                                .screenshot = window.screenshot});
 }
 
-Result<bool> ask_own_marks(Desk& desk, const Ready& ready, record::Diary& diary,
+Result<bool> ask_own_marks(Desk& desk, const WindowSession& ready, record::Diary& diary,
                            const WindowOptions& window) {
   const std::uint64_t ticks = ready.session->outcome().ticks;
   return ask_self_marks(desk, *ready.work_case, diary, ticks > 0 ? ticks - 1 : 0, window.seconds);
 }
 
-Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::Recipe& given,
+Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::BoneRecipe& given,
                           const WatchOptions& options) {
   bool closed = false;
   const auto open = [&desk, &given](const std::string& path, bool& shut) {
@@ -184,8 +184,8 @@ Result<Closed> work_on(Desk& desk, StartPage::Choice& choice, const PagesOptions
   const std::string title =
       say(Word::loading, goes_on ? choice.go_on->title : title_of(chosen, desk.settings));
   bool closed = false;
-  Result<Ready> ready =
-      goes_on ? load<Ready>(
+  Result<WindowSession> ready =
+      goes_on ? load<WindowSession>(
                     desk, title,
                     [kept = *choice.go_on](Progress& progress) {
                       return continue_session(kept, progress);
@@ -193,7 +193,7 @@ Result<Closed> work_on(Desk& desk, StartPage::Choice& choice, const PagesOptions
                     closed)
       : names_a_scan(chosen)
           ? open_by_page(desk, chosen, title, options.seconds, closed)
-          : load<Ready>(
+          : load<WindowSession>(
                 desk, title, [chosen](Progress& progress) { return open_ready(chosen, progress); },
                 closed);
   if (closed || interrupted()) {

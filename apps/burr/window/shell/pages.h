@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "shared/make_ready.h"
+#include "shared/window_session.h"
 #include "shared/work.h"
 #include "window/mill/window_options.h"
 #include "window/replay/replay_page.h"
@@ -28,25 +28,28 @@ struct PagesOptions {
 [[nodiscard]] Status run_pages(Desk& desk, const PagesOptions& options);
 
 // Opens a case or a scan; for use as the work of a Loading.
-[[nodiscard]] Result<Ready> open_ready(WorkOptions options, Progress& progress);
+[[nodiscard]] Result<WindowSession> open_ready(WorkOptions options, Progress& progress);
 
 // Of its case, in the user's language; without a case as ready.title.
-[[nodiscard]] std::string title_of(const Ready& ready);
+[[nodiscard]] std::string title_of(const WindowSession& ready);
 
 // Opens a recording while the loading page is shown, then shows the page that plays it. given: what
 // the user said about its volume. Error: one sentence; Trouble::interrupted if the user cancelled.
 [[nodiscard]] Result<Closed> watch_file(Desk& desk, const std::string& file,
-                                        const scenario::Recipe& given, const WatchOptions& options);
+                                        const scenario::BoneRecipe& given,
+                                        const WatchOptions& options);
 
 // Runs one session, with the loudspeaker (if `window` wants sound) and the distances to structures.
-[[nodiscard]] Result<Closed> mill_with_sound(Desk& desk, Ready& ready, const WindowOptions& window);
+[[nodiscard]] Result<Closed> mill_with_sound(Desk& desk, WindowSession& ready,
+                                             const WindowOptions& window);
 
 // Runs one session and keeps its recording if the settings say so. If the user declares the work on a
 // case done, the learner's own marks and those of the machine follow; the result is then
 // Closed::page, Closed::again or Closed::window. embed: the session goes on with an older one; its
 // recording holds the second part only, so there are no marks.
-[[nodiscard]] Result<Closed> mill_and_keep(Desk& desk, Ready& ready, const WorkOptions& options,
-                                           bool embed, const WindowOptions& window);
+[[nodiscard]] Result<Closed> mill_and_keep(Desk& desk, WindowSession& ready,
+                                           const WorkOptions& options, bool embed,
+                                           const WindowOptions& window);
 
 // The number of the learner's next attempt, where attempts are counted.
 inline void next_attempt(record::Identity& identity) {
@@ -55,7 +58,7 @@ inline void next_attempt(record::Identity& identity) {
 
 // After a session that was declared done, before its recording is closed: the learner's own marks go
 // into it. false: the user closed the window.
-[[nodiscard]] Result<bool> ask_own_marks(Desk& desk, const Ready& ready, record::Diary& diary,
-                                         const WindowOptions& window);
+[[nodiscard]] Result<bool> ask_own_marks(Desk& desk, const WindowSession& ready,
+                                         record::Diary& diary, const WindowOptions& window);
 
 }  // namespace burr::app

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "burr/render/camera.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/replay/playback.h"
 #include "window/replay/replay_page.h"
 #include "window/ui/loading.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "burr/workshop/device_book.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "burr/scenario/case.h"
 #include "burr/workshop/hand_device.h"
 #include "shared/interrupt.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "shared/work.h"
 #include "window/parts/hud.h"
 #include "window/start/can_rate.h"
@@ -135,7 +135,7 @@ void StartPage::open(std::string path) {
   options.volume.source = cleaned_path(std::move(path));
   options.identity = identity_;
   options.other_bones = other_bone_;
-  // a scan of one's own has no steps that these two could be about; an exam stays one
+  // a scan without a case has no steps that these two could be about; an exam stays one
   const bool guided =
       identity_.mode == record::Mode::learn || identity_.mode == record::Mode::practise;
   if (guided && names_a_scan(options)) options.identity.mode = record::Mode::free;

@@ -12,7 +12,7 @@
 #include "burr/record/identity.h"
 #include "burr/workshop/hand_device.h"
 #include "shared/work.h"
-#include "window/parts/sessions.h"
+#include "window/parts/kept_sessions.h"
 #include "window/start/hand_choice.h"
 #include "window/start/thumbnails.h"
 #include "window/ui/desk.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "burr/render/picture.h"
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 

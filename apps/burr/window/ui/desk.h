@@ -15,7 +15,7 @@
 #include "burr/render/governor.h"
 #include "burr/render/headset.h"
 #include "burr/render/renderer.h"
-#include "shared/settings.h"
+#include "shared/user_settings.h"
 #include "window/hands/gamepad.h"
 #include "window/hands/pedals.h"
 #include "window/hands/spacemouse.h"

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/ui/imgui_keys.h"
 #include "window/ui/typed_path.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/ui/printed_keys.h"
 
 namespace burr::app {

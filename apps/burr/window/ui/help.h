@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 #include "window/ui/ui.h"
 
 namespace burr::app {

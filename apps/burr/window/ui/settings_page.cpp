@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "shared/words.h"
+#include "shared/word_names.h"
 
 namespace burr::app {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "burr/workshop/device_book.h"
-#include "shared/settings.h"
+#include "shared/user_settings.h"
 #include "window/ui/ui.h"
 
 namespace burr::app {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "burr/device/crtk/bus.h"
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/rt/rt.h"
 
 namespace burr::device::crtk {

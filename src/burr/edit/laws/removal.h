@@ -9,7 +9,7 @@
 // sin(theta), theta: angle between the burr's axis and the contact normal; the pole of a burr cuts
 // least. Without push or speed nothing is cut. The bone drags the burr against the direction in
 // which its surface slides: F_t makes a burr walk sideways, and the other way when it turns
-// backwards. The law of level 2 is chips.h; the law of the thesis is the baseline for both. Thread:
+// backwards. The law of level 2 is chip_law.h; the law of the thesis is the baseline for both. Thread:
 // servo. Units: SI. Frame: world.
 #pragma once
 
@@ -28,7 +28,7 @@ namespace burr::edit {
 enum class RemovalLaw {
   energy,  // the law described above
   thesis,  // Eriksson 2006: all bone in the burr loses density with time; no force, no ledger
-  chips,   // chips.h; a diamond burr, which has no teeth, uses the energy law
+  chips,   // chip_law.h; a diamond burr, which has no teeth, uses the energy law
 };
 inline constexpr int kLaws = 3;
 inline constexpr std::array<std::string_view, kLaws> kLawNames = {"energy", "thesis", "chips"};

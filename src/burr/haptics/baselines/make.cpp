@@ -1,7 +1,7 @@
 // make_method() of haptics/touch_method.h: the one place that knows every method.
 #include "burr/haptics/baselines/penalty.h"
-#include "burr/haptics/baselines/samples.h"
-#include "burr/haptics/baselines/thesis.h"
+#include "burr/haptics/baselines/sample_method.h"
+#include "burr/haptics/baselines/thesis_method.h"
 #include "burr/haptics/baselines/triangles.h"
 #include "burr/haptics/baselines/voxel_springs.h"
 #include "burr/haptics/proxy.h"

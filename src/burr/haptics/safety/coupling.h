@@ -13,7 +13,7 @@
 // Thread: any; also in the tick. Units: SI. Memory: none.
 #pragma once
 
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/rt/rt.h"
 
 namespace burr::haptics {

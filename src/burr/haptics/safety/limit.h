@@ -20,7 +20,7 @@
 
 #include <cstdint>
 
-#include "burr/device/hand.h"
+#include "burr/device/hand_state.h"
 #include "burr/haptics/force_settings.h"
 #include "burr/haptics/safety/lever.h"
 #include "burr/math/vec3.h"

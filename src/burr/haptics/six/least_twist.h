@@ -1,7 +1,7 @@
 // haptics/six/least_twist.h - the smallest correction of a move and a turn that keeps a tool off the
 // bone: a projection in six unknowns.
 //
-//     z = argmin |z - wanted|^2   subject to   a_j . z >= -gap_j      a_j = (n_j, m_j) of rows.h
+//     z = argmin |z - wanted|^2   subject to   a_j . z >= -gap_j      a_j = (n_j, m_j) of move_rows.h
 //
 // Dual active set (Goldfarb & Idnani 1983) with the identity for a Hessian: start at `wanted`; take
 // the row that z violates most; go along its part that is square to the rows in hand until it holds
@@ -9,13 +9,13 @@
 // is solved anew each time. Equal violations: the first row. With gaps >= 0, z = 0 is allowed, so it
 // cannot fail; with gaps < 0 it may, then `solved` is false and z is zero.
 //
-// Thread: servo. Units: as rows.h. Memory: none.
+// Thread: servo. Units: as move_rows.h. Memory: none.
 #pragma once
 
 #include <array>
 
+#include "burr/haptics/six/move_rows.h"
 #include "burr/haptics/six/row_kernel.h"
-#include "burr/haptics/six/rows.h"
 #include "burr/rt/rt.h"
 
 namespace burr::haptics {

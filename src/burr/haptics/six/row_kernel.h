@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-#include "burr/haptics/six/rows.h"
+#include "burr/haptics/six/move_rows.h"
 #include "burr/tool/shape_kind.h"
 #include "burr/volume/iso_kernel.h"
 

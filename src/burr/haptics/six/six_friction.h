@@ -15,7 +15,7 @@
 // the ellipsoid that contains it and touches it in the direction of the slide (the weights
 // p_j / |T_j d| make the gradients equal), and the direction is found again, a few times.
 //
-// Frame: p_grid. Units: voxel; turns times L (rows.h). Thread: servo. Memory: none but its own.
+// Frame: p_grid. Units: voxel; turns times L (move_rows.h). Thread: servo. Memory: none but its own.
 // Formulas: docs/understand/touch_tools.md, "Friction of a tool". Source: Goyal, Ruina &
 // Papadopoulos 1991 for limit surfaces, from memory.
 #pragma once
@@ -24,7 +24,7 @@
 #include <span>
 
 #include "burr/haptics/six/least_twist.h"
-#include "burr/haptics/six/rows.h"
+#include "burr/haptics/six/move_rows.h"
 #include "burr/rt/rt.h"
 
 namespace burr::haptics {

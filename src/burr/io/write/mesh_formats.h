@@ -9,7 +9,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
-#include "burr/io/write/frame.h"
+#include "burr/io/write/mesh_frame.h"
 #include "burr/surface/patch.h"
 #include "burr/volume/tissue.h"
 

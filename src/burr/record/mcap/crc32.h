@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "burr/record/mcap/bytes.h"
+#include "burr/record/mcap/mcap_bytes.h"
 
 namespace burr::record {
 

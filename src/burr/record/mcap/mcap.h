@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "burr/record/mcap/bytes.h"
+#include "burr/record/mcap/mcap_bytes.h"
 
 namespace burr::record::mcap {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
-#include "burr/record/mcap/bytes.h"
+#include "burr/record/mcap/mcap_bytes.h"
 
 namespace burr::record {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "burr/render/camera.h"
-#include "burr/render/gl/region.h"
+#include "burr/render/gl/target_parts.h"
 
 namespace burr::render::gl {
 

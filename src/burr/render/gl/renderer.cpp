@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "burr/render/gl/renderer_work.h"
 #include "burr/render/gl/shaders.h"
-#include "burr/render/gl/work.h"
 
 namespace burr::render {
 

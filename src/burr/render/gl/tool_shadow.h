@@ -9,7 +9,7 @@
 
 #include "burr/render/gl/frame.h"
 #include "burr/render/gl/objects.h"
-#include "burr/render/gl/shapes.h"
+#include "burr/render/gl/tool_triangles.h"
 #include "burr/render/scene.h"
 
 namespace burr::render::gl {

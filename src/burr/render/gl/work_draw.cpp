@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "burr/render/gl/work.h"
+#include "burr/render/gl/renderer_work.h"
 
 namespace burr::render {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "burr/render/gl/renderer_work.h"
 #include "burr/render/gl/shaders.h"
-#include "burr/render/gl/work.h"
 
 namespace burr::render {
 
