@@ -23,6 +23,7 @@
 #include "commands/examples.h"
 #include "commands/shell_limits.h"
 #include "shared/console.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/subcommand.h"
 
@@ -147,6 +148,9 @@ int main(int argc, char** argv) {
     return app::end(code == 0 ? 0 : static_cast<int>(Trouble::usage));
   }
   if (dry) return app::end(0);
+  const CLI::App* command = &program;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  app::speak_for(*command);
   if (!todo.work)
     todo.work = [&program] {
       fmt::print("{}", program.help());
@@ -171,7 +175,8 @@ int main(int argc, char** argv) {
     status =
         error(Trouble::internal, fmt::format("unexpected: {}; please report it", problem.what()));
   }
-  if (!status.ok()) std::fprintf(stderr, "burr: %s\n", status.error().text.c_str());
+  if (!status.ok())
+    std::fprintf(stderr, "burr: %s\n", app::in_options(status.error()).text.c_str());
   if (status.ok()) return app::end(0);
   const Trouble trouble = status.error().trouble;
   return app::end(trouble == Trouble::interrupted ? app::stopped_code()

@@ -47,7 +47,8 @@ class Distance:
 class Bone:
     @staticmethod
     def load(source: str, *, voxel_mm: float = 0, iso: float | None = None, region: str = "", series: str = "", labels: str = "",
-             materials: str = "", allow_missing: bool = False, as_it_is: bool = False, reserve_bricks: int = 4096,
+             materials: str = "", spacing_mm: float | ArrayLike | None = None, smooth: float = -1, allow_missing: bool = False,
+             as_it_is: bool = False, read_seconds: float = 0, read_memory_mb: float = 0, reserve_bricks: int = 4096,
              progress: Progress | None = None) -> Bone: ...
     @staticmethod
     def from_array(field: NDArray[np.uint16], voxel_mm: float, *, labels: NDArray[np.uint8] | None = None,

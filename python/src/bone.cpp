@@ -164,16 +164,22 @@ struct ScanGrid {
   io::Scan scan;
   std::size_t voxels = 0;
 };
+// One number, or one for each axis.
+math::Vec3 spacing_of(const py::object& spacing_mm) {
+  const math::Vec3 mm =
+      py::isinstance<py::float_>(spacing_mm) || py::isinstance<py::int_>(spacing_mm)
+          ? math::Vec3(math::Vec3::Constant(spacing_mm.cast<double>()))
+          : vec3_of(spacing_mm, "spacing_mm");
+  if (!(mm.minCoeff() > 1e-3 && mm.maxCoeff() < 100))
+    raise("spacing_mm is out of range; use 0.001 to 100, for x, y and z");
+  return mm;
+}
+
 ScanGrid scan_like(const py::array& array, const py::object& spacing_mm,
                    const py::object& origin_mm) {
   ScanGrid made;
   made.scan.size = size_of(array);
-  made.scan.spacing_mm =
-      py::isinstance<py::float_>(spacing_mm) || py::isinstance<py::int_>(spacing_mm)
-          ? math::Vec3(math::Vec3::Constant(spacing_mm.cast<double>()))
-          : vec3_of(spacing_mm, "spacing_mm");
-  if (!(made.scan.spacing_mm.minCoeff() > 1e-3 && made.scan.spacing_mm.maxCoeff() < 100))
-    raise("spacing_mm is out of range; use 0.001 to 100, for x, y and z");
+  made.scan.spacing_mm = spacing_of(spacing_mm);
   made.scan.origin_mm = vec3_of(origin_mm, "origin_mm");
   made.scan.format = "array";
   made.voxels = static_cast<std::size_t>(array.size());
@@ -229,13 +235,18 @@ BonePtr from_hu(const py::array& hu, const py::object& spacing_mm, const py::obj
 
 BonePtr load(const std::string& source, double voxel_mm, const py::object& iso,
              const std::string& region, const std::string& series, const std::string& labels,
-             const std::string& materials, bool allow_missing, bool as_it_is,
+             const std::string& materials, const py::object& spacing_mm, double smooth,
+             bool allow_missing, bool as_it_is, double read_seconds, double read_memory_mb,
              std::size_t reserve_bricks, const py::object& call) {
   scenario::BoneRecipe recipe = recipe_from(voxel_mm, labels, materials, reserve_bricks);
   recipe.source = source;
   recipe.series = series;
   recipe.allow_missing = allow_missing;
   recipe.as_it_is = as_it_is;
+  recipe.smooth = smooth;
+  recipe.read_seconds = read_seconds;
+  recipe.read_memory_mb = read_memory_mb;
+  if (!spacing_mm.is_none()) recipe.spacing_mm = spacing_of(spacing_mm);
   if (!iso.is_none()) recipe.iso = iso.cast<double>();
   if (!region.empty()) recipe.region = take(scenario::parse_region(region));
   Work work(call);
@@ -455,8 +466,9 @@ void add_bone(py::module_& module) {
                                     "A bone of voxels. It never changes: a session cuts a copy.");
   bone.def_static("load", &load, "source"_a, py::kw_only(), "voxel_mm"_a = 0.0,
                   "iso"_a = py::none(), "region"_a = "", "series"_a = "", "labels"_a = "",
-                  "materials"_a = "", "allow_missing"_a = false, "as_it_is"_a = false,
-                  "reserve_bricks"_a = 4096, "progress"_a = py::none(),
+                  "materials"_a = "", "spacing_mm"_a = py::none(), "smooth"_a = -1.0,
+                  "allow_missing"_a = false, "as_it_is"_a = false, "read_seconds"_a = 0.0,
+                  "read_memory_mb"_a = 0.0, "reserve_bricks"_a = 4096, "progress"_a = py::none(),
                   "A file, a DICOM folder, or phantom:NAME.");
   bone.def_static("from_array", &from_array, "field"_a, "voxel_mm"_a, py::kw_only(),
                   "labels"_a = py::none(), "tissues"_a = std::vector<volume::Tissue>(),

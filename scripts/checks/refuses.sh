@@ -109,4 +109,17 @@ full() {
 }
 full "$burr" materials
 full "$burr" help
+
+# What a case says of a session is checked by all who read the case, with one sentence.
+printf 'title = "x"\nphantom = "block"\n[burr]\ndiameter_mm = 5\nrpm = 1000\n[session]\ntorque_mnm = -1\n' >"$place/session.toml"
+said='session.toml: line 7: session.torque_mnm: must be a number from'
+expect 65 "$said" "$burr" rubric check block --case "$place/session.toml"
+expect 65 "$said" "$burr" case check "$place/session.toml"
+expect 65 "$said" "$burr" mill "$place/session.toml" --motion slot --seconds 1
+
+# A sentence of the library names its fields; the program says what can be typed, and only what this command has.
+expect 2 'a phantom is a formula: only --voxel-mm and --materials apply' "$burr" mill phantom:block --motion slot --roi 1,2,3,4,5,6
+expect 2 '^--roi: "1,2" is not six whole numbers' "$burr" info phantom:block --roi 1,2
+expect 2 '^burr: --motion nowhere is not known' "$burr" mill phantom:block --motion nowhere
+
 exit $bad

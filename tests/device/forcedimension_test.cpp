@@ -369,7 +369,7 @@ TEST_F(OmegaTest, WithoutDrdTheUserMustSayThatItIsHomed) {
   OmegaSettings settings{.dhd_file = kFakes + "libdhd.so", .home_allowed = true};
   const std::string text = refused(settings);
   EXPECT_TRUE(has(text, "libdrd")) << text;
-  EXPECT_TRUE(has(text, "--is-homed")) << text;
+  EXPECT_TRUE(has(text, "`is_homed`")) << text;
   settings.is_homed = true;
   {
     Omega omega(settings);
@@ -495,7 +495,7 @@ TEST_F(OmegaTest, ASerialNumberFindsItsDeviceWhereverItIs) {
 TEST_F(OmegaTest, TheArmIsNeverHomedUnasked) {
   set([](test::FakeArm& arm) { arm.initialized = false; });
   const std::string text = refused(by_itself());
-  EXPECT_TRUE(has(text, "--home")) << text;
+  EXPECT_TRUE(has(text, "`home_allowed`")) << text;
   EXPECT_TRUE(has(text, "move by itself")) << text;
   EXPECT_EQ(of([](const test::FakeArm& arm) { return arm.homed; }), 0U);
   EXPECT_FALSE(of([](const test::FakeArm& arm) { return arm.open; }));

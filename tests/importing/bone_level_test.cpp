@@ -110,7 +110,7 @@ TEST(BoneLevel, TheImportSaysThatItIsAnEstimateAndOldRecordingsGetOtsu) {
   EXPECT_EQ(plan->iso_sure, Sure::high);
   EXPECT_NEAR(plan->iso, 1324, 40);
   EXPECT_NE(plan->notices.front().find("estimate"), std::string::npos) << plan->notices.front();
-  EXPECT_NE(plan->notices.front().find("--iso"), std::string::npos);
+  EXPECT_NE(plan->notices.front().find("`iso`"), std::string::npos);
   scenario::BoneRecipe old;
   old.check_values = false;
   const auto before = plan_import(scan, old);

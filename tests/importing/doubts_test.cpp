@@ -68,12 +68,12 @@ TEST(ImportDoubts, AbsentSlicesStopUntilTheyAreAllowed) {
     ASSERT_TRUE(scan.ok()) << scan.error().text;
     const std::string why = refusal(*scan);
     EXPECT_NE(why.find("so slices are missing"), std::string::npos) << why;
-    EXPECT_NE(why.find("--allow-missing"), std::string::npos) << why;
+    EXPECT_NE(why.find("`allow_missing`"), std::string::npos) << why;
     scenario::BoneRecipe allowed;
     allowed.allow_missing = true;
     const auto plan = plan_import(*scan, allowed);
     ASSERT_TRUE(plan.ok()) << plan.error().text;
-    EXPECT_TRUE(says(plan->notices, "used all the same (--allow-missing)"))
+    EXPECT_TRUE(says(plan->notices, "used all the same (`allow_missing`)"))
         << all_of(plan->notices);
   }
 }
@@ -84,12 +84,12 @@ TEST(ImportDoubts, WhatIsNoCtStopsUntilItIsWantedAsItIs) {
   ASSERT_TRUE(scan.ok()) << scan.error().text;
   const std::string why = refusal(*scan);
   EXPECT_NE(why.find("(MR): bone is dark"), std::string::npos) << why;
-  EXPECT_NE(why.find("--as-it-is"), std::string::npos) << why;
+  EXPECT_NE(why.find("`as_it_is`"), std::string::npos) << why;
   scenario::BoneRecipe wanted;
   wanted.as_it_is = true;
   const auto plan = plan_import(*scan, wanted);
   ASSERT_TRUE(plan.ok()) << plan.error().text;
-  EXPECT_TRUE(says(plan->notices, "used all the same (--as-it-is)")) << all_of(plan->notices);
+  EXPECT_TRUE(says(plan->notices, "used all the same (`as_it_is`)")) << all_of(plan->notices);
   EXPECT_EQ(plan->modality, "MR");
 }
 

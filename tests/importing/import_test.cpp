@@ -315,7 +315,7 @@ TEST(ImportGrey, OneSliceOrNothingButAirIsASentence) {
   options.iso = 5000;
   const io::Scan scan =
       grey_scan({30, 30, 30}, {1, 1, 1}, [](const Vec3& p) { return ct_ball(p, 9, 1); });
-  EXPECT_NE(plan_import(scan, options).error().text.find("--iso"), std::string::npos);
+  EXPECT_NE(plan_import(scan, options).error().text.find("`iso`"), std::string::npos);
 }
 
 // ---- labels

@@ -272,18 +272,18 @@ TEST(ChooseParts, BySizePointAndVolume) {
   EXPECT_EQ(found(recipe).parts->removed, 0U);
   recipe.keep.largest = 1;
   EXPECT_EQ(found(recipe).parts->removed, 3U);
-  EXPECT_TRUE(says(found(recipe), "3 of 4 separate parts were removed (--keep)"));
+  EXPECT_TRUE(says(found(recipe), "3 of 4 separate parts were removed (`keep`)"));
   recipe.keep.at_mm = {scan.origin_mm + Vec3(22, 8, 8)};
   EXPECT_EQ(found(recipe).parts->removed, 2U) << "the largest, and that at the point";
   recipe.keep.largest = 9;
   EXPECT_EQ(found(recipe).parts->removed, 0U);
-  EXPECT_TRUE(says(found(recipe), "has only 4 parts, so --keep 9 keeps them all"));
+  EXPECT_TRUE(says(found(recipe), "has only 4 parts, so `keep` 9 keeps them all"));
   recipe.keep = {};
   recipe.drop_islands_mm3 = 1.5;
   EXPECT_EQ(found(recipe).parts->removed, 1U) << "the single voxel: an octahedron of half a voxel";
   const double reach = (1000 - 300) / 2000.0;  // from the voxel to the level, along each axis
   EXPECT_NEAR(found(recipe).parts->removed_mm3, 4.0 / 3 * reach * reach * reach, 0.002);
-  EXPECT_TRUE(says(found(recipe), "(--drop-islands-mm3): 0.05"));
+  EXPECT_TRUE(says(found(recipe), "(`drop_islands_mm3`): 0.05"));
   EXPECT_TRUE(says(found(recipe), "mm3, at -12,39,33 mm"));
   recipe.drop_islands_mm3 = 20;
   EXPECT_EQ(found(recipe).parts->removed, 2U);

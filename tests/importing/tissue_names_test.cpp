@@ -227,7 +227,7 @@ TEST(TissueNames, ThatAreNotUnderstoodAreSaid) {
     return false;
   };
   EXPECT_TRUE(says("does not understand the name of label 2 (Qwerty)"));
-  EXPECT_TRUE(says("--tissues"));
+  EXPECT_TRUE(says("`labels`"));
   EXPECT_FALSE(says("Segment_3"));
   EXPECT_TRUE(says("Label 4 is named Knochen, but its code says Skin"));
   EXPECT_EQ(read->table[3].kind, TissueKind::soft);

@@ -281,10 +281,10 @@ TEST_F(WriteDicomSeg, RefusedInOneSentence) {
   refused(write(wide), "at most 65535 pixels");
   SegOptions root;
   root.uid_root = "mine";
-  refused(write(labels_askew(), root), "--uid-root: mine is no root");
+  refused(write(labels_askew(), root), "`uid_root`: mine is no root");
   SegOptions letters;
   letters.study = DicomStudy{"ISO_IR 9999", {{0x00100010, "A^B"}}};
-  refused(write(labels_askew(), letters), "--no-patient");
+  refused(write(labels_askew(), letters), "leave the patient out, by `io::SegOptions::study`");
   SegOptions frame;
   frame.study = DicomStudy{"", {{kFrameOfReference, "no UID at all"}}};
   refused(write(labels_askew(), frame), "frame of reference");

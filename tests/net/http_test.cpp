@@ -356,10 +356,10 @@ TEST(Serve, SaysWhyItCannotOpen) {
   door.port = first.port;
   EXPECT_NE(Running(door).trouble.find("Address already in use"), std::string::npos);
   door.address = "example";
-  EXPECT_EQ(Running(door).trouble, "--listen: \"example\" is not an IP address");
+  EXPECT_EQ(Running(door).trouble, "`address`: \"example\" is not an IP address");
   door = {};
   door.certificate = "a.pem";
-  EXPECT_EQ(Running(door).trouble, "--certificate and --key belong together; give both");
+  EXPECT_EQ(Running(door).trouble, "`certificate` and `key` belong together; give both");
   door.key = "a.pem";
   EXPECT_NE(Running(door).trouble.find("a.pem: is no certificate in PEM"), std::string::npos);
   EXPECT_TRUE(is_loopback("127.0.0.1"));

@@ -95,7 +95,7 @@ TEST(Player, AnotherBoneOrOneWithoutRoomIsRefused) {
   volume::Bone small(other, {}, 1, 0, false);
   const Status wrong = (*player)->bone_at(1, small);
   ASSERT_FALSE(wrong.ok());
-  EXPECT_NE(wrong.error().text.find("--volume"), std::string::npos);
+  EXPECT_NE(wrong.error().text.find("`volume`"), std::string::npos);
   const auto narrow = any_bone(random, 0);
   const Status no_room = (*player)->bone_at(4, *narrow);
   ASSERT_FALSE(no_room.ok());
@@ -394,7 +394,7 @@ TEST(FindVolume, ByFingerprintWhateverItIsCalled) {
   put("scans/series/IM3", 1);
   ASSERT_FALSE(search().ok());
   EXPECT_EQ(search().error().trouble, Trouble::io);
-  EXPECT_NE(search().error().text.find("--volume"), std::string::npos);
+  EXPECT_NE(search().error().text.find("`volume`"), std::string::npos);
   hints.given = folder / "scans/b/two.nrrd";
   EXPECT_EQ(*search(), hints.given) << "the user's word";
   hints.given = folder / "gone.nrrd";

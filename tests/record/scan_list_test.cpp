@@ -165,7 +165,7 @@ TEST(ScanList, LeadsToTheScanWhileItIsThereAndTheSame) {
   fs::remove(scan);
   const auto lost = find_volume(info, hints);
   ASSERT_FALSE(lost);
-  EXPECT_NE(lost.error().text.find("--volume"), std::string::npos) << lost.error().text;
+  EXPECT_NE(lost.error().text.find("`volume`"), std::string::npos) << lost.error().text;
   EXPECT_EQ(lines_of(list), 0);
 }
 

@@ -156,7 +156,7 @@ TEST(SelfMarks, NameFileLineFieldAndRemedyOfAMistake) {
   const Scored scored = example();
   const std::array<std::pair<const char*, const char*>, 5> kMistakes = {
       {{"[marks]\nno-such = \"met\"\n",
-        "m.toml: line 2: no-such: r.toml has no such item; burr score names them"},
+        "m.toml: line 2: no-such: r.toml has no such item; use one of "},
        {"[marks]\nnear = true\n", R"(m.toml: line 2: near: must be "met", "unmet" or "unknown")"},
        {"mark = 3\n", "m.toml: line 1: mark: is not a known field; write a table [marks]"},
        {"", "m.toml: marks: is missing; begin with [marks]"},

@@ -196,7 +196,7 @@ TEST(StoreTrouble, SaysWhereBytesMayBeLeftWhileSomebodyReads) {
   const auto done = forget(*store, "kestrel-27", {});
   ASSERT_TRUE(done) << done.error().text;
   ASSERT_EQ(done->notices.size(), 1U);
-  EXPECT_NE(done->notices[0].find("--scrub"), std::string::npos);
+  EXPECT_NE(done->notices[0].find("`school::scrub`"), std::string::npos);
   ASSERT_TRUE((*reader)->run("COMMIT"));
   ASSERT_TRUE(scrub(*store));
   EXPECT_FALSE(holds(folder.path(), "kestrel-27"));

@@ -72,7 +72,7 @@ TEST(Rubric, AGradeIsInTheUnitOfItsMeasure) {
   EXPECT_EQ(
       trouble_of(std::string(two).replace(two.find("cover_mm"), 8, "hi_mm")),
       "r.toml: line 8: item[1].grade: \"skeletonised\" is decided by two numbers, so it cannot be "
-      "graded; leave `grade` out");
+      "graded; leave \"grade\" out");
 }
 
 TEST(Rubric, ACaseOfItsOwnIsSoughtFromTheFolderOfTheRubric) {
@@ -126,7 +126,7 @@ TEST(Rubric, AMistakeIsASentenceWithItsLine) {
             "r.toml: line 13: requires: there is no item \"x\"; use the id of one of these: "
             "nerve.seen, nerve.whole");
   EXPECT_EQ(trouble_of(with("gate = true", "requires = \"nerve.seen\"")),
-            "r.toml: line 20: requires: \"nerve.seen\" leads back to itself; take one `requires` "
+            "r.toml: line 20: requires: \"nerve.seen\" leads back to itself; take one \"requires\" "
             "out of the circle");
   EXPECT_EQ(trouble_of(with("\"nerve.whole\"\npart", "\"nerve.seen\"\npart")),
             "r.toml: line 17: id: \"nerve.seen\" is also the item of line 5; give it another id");

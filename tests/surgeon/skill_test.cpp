@@ -55,10 +55,10 @@ TEST(Skill, RefusesAnUnknownNameAndAnImpossibleValueInOneSentence) {
   Skill skill;
   const Status unknown = set_vice(skill, "haste", 1);
   ASSERT_FALSE(unknown);
-  EXPECT_EQ(unknown.error().text.find("--vice haste: there is no such number; use one of "), 0U);
+  EXPECT_EQ(unknown.error().text.find("`vice` haste: there is no such number; use one of "), 0U);
   const Status far = set_vice(skill, "tremor_mm", 50);
   ASSERT_FALSE(far);
-  EXPECT_EQ(far.error().text, "--vice tremor_mm=50: is out of range; use 0 to 5");
+  EXPECT_EQ(far.error().text, "`vice` tremor_mm=50: is out of range; use 0 to 5");
   EXPECT_FALSE(set_vice(skill, "tremor_mm", NAN));
   EXPECT_EQ(skill.tremor, Skill{}.tremor);
 }

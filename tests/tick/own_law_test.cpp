@@ -334,7 +334,7 @@ TEST(OwnLawRecorded, ReplaysToTheBitWithTheSameFileAndNoOther) {
 
   const auto none = again(file, nullptr);
   ASSERT_FALSE(none.ok());
-  EXPECT_NE(none.error().text.find("give that file with --law"), std::string::npos);
+  EXPECT_NE(none.error().text.find("give that file with `law`"), std::string::npos);
   const auto refused = again(file, &other);
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(refused.error().text.find("was made with another law"), std::string::npos);
@@ -373,7 +373,7 @@ TEST(OwnLawRecorded, ARecordingWithoutOneTakesNone) {
   TestLaw law(as_burr);
   const auto refused = again(file, &law);
   ASSERT_FALSE(refused.ok());
-  EXPECT_NE(refused.error().text.find("leave out --law"), std::string::npos);
+  EXPECT_NE(refused.error().text.find("leave out `law`"), std::string::npos);
   EXPECT_TRUE(again(file, nullptr).ok());
 }
 

@@ -18,18 +18,18 @@ class NoticeWords : public testing::Test {
 };
 
 TEST_F(NoticeWords, RoundVolumesAndNameNoOption) {
-  EXPECT_EQ(notice_words("3856 of 3857 separate parts were removed (--keep): 19563 mm3 in all, the "
+  EXPECT_EQ(notice_words("3856 of 3857 separate parts were removed (`keep`): 19563 mm3 in all, the "
                          "largest of 9660.032431837088 mm3 at 61.6,96.8,-89.6 mm."),
             "3856 of 3857 separate parts were left out: 19.6 cm³ in all, the largest 9.7 cm³.");
-  EXPECT_EQ(notice_words("One of 2 separate parts was removed (--keep and --drop-islands-mm3): "
+  EXPECT_EQ(notice_words("One of 2 separate parts was removed (`keep` and `drop_islands_mm3`): "
                          "0.524 mm3, at 1,2,3 mm."),
             "One of 2 separate parts was left out: 0.52 mm³.");
-  EXPECT_EQ(notice_words("Noise of 31.2 HU is smoothed out along the surface; see --smooth."),
+  EXPECT_EQ(notice_words("Noise of 31.2 HU is smoothed out along the surface; see `smooth`."),
             "Noise of 31.2 HU is smoothed out along the surface.");
 }
 
 TEST_F(NoticeWords, SpeakTheLanguageOfTheUser) {
-  const std::string sentence = "Noise of 31.2 HU is smoothed out along the surface; see --smooth.";
+  const std::string sentence = "Noise of 31.2 HU is smoothed out along the surface; see `smooth`.";
   const std::string lies =
       "The file does not state its orientation: left, posterior, superior is assumed.";
   speak("sv");
@@ -44,9 +44,9 @@ TEST_F(NoticeWords, SpeakTheLanguageOfTheUser) {
 TEST_F(NoticeWords, OfOtherSentencesLeaveOutTheOptions) {
   EXPECT_EQ(notice_words("The ADF's scale of 0.5 is applied."),
             "The ADF's scale of 0.5 is applied.");
-  EXPECT_EQ(notice_words("Something was done (--thing) here; choose another with --other."),
+  EXPECT_EQ(notice_words("Something was done (`thing`) here; choose another with `other`."),
             "Something was done here.");
-  EXPECT_EQ(notice_words("One was taken. To use the other, give --series 2."), "One was taken.");
+  EXPECT_EQ(notice_words("One was taken. To use the other, give `series` 2."), "One was taken.");
 }
 
 TEST_F(NoticeWords, VolumesHaveAsManyDigitsAsAPersonNeeds) {

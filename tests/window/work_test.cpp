@@ -5,6 +5,7 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 #include "burr/base/progress.h"
 #include "shared/work.h"
@@ -30,7 +31,7 @@ TEST(Work, ABurrTooSmallForTheVoxelsMakesWayForOneThatFitsAndSaysSo) {
   EXPECT_NEAR(ready->session->settings().servo.burr.radius, 2.7e-3, 1e-9) << "4 x 1.33 mm is 5.32";
   ASSERT_FALSE(ready->import.notices.empty());
   const std::string& said = ready->import.notices.back();
-  for (const char* part : {"5.00 mm", "1.33 mm", "5.4 mm", "--voxel-mm 1.25"})
+  for (const char* part : {"5.00 mm", "1.33 mm", "5.4 mm", "`voxel_mm` 1.25"})
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
 }
 
@@ -60,13 +61,15 @@ TEST(Work, ACaseIsTakenToAnotherBone) {
   block.other_bones = true;
   ASSERT_TRUE(take_case(block));
   EXPECT_EQ(block.volume.source, "phantom:block");
-  for (const std::string source : {"block", "phantom:jaw"}) {
+  // the library's sentence about a case, in its own words, and the program's about what is none
+  for (const auto& [source, remedy] : {std::pair{"block", "leave out `bone_number`"},
+                                       std::pair{"phantom:jaw", "leave out --bone"}}) {
     WorkOptions bad;
     bad.volume.source = source;
     bad.bone = 3;
     const Status taken = take_case(bad);
     ASSERT_FALSE(taken) << source;
-    EXPECT_NE(taken.error().text.find("leave out --bone"), std::string::npos) << taken.error().text;
+    EXPECT_NE(taken.error().text.find(remedy), std::string::npos) << taken.error().text;
   }
 }
 

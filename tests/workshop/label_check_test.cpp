@@ -217,7 +217,7 @@ TEST(CheckLabels, TheSentenceNamesTheLineOfTheFirstFault) {
   EXPECT_EQ(all.error().trouble, Trouble::data);
   EXPECT_EQ(all.error().text,
             "my.toml: line 3: 3 labels are not as the case expects; \"nerve\": its label is empty; "
-            "mend the label, give the case another range, or accept it with --accept-label "
+            "mend the label, give the case another range, or accept it with `accepted_labels` "
             "\"nerve\"");
   const Status some = as_expected(check(three, *bone, {"nerve", "drum"}), "my.toml");
   ASSERT_FALSE(some);

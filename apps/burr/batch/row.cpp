@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "shared/front_words.h"
 
 namespace burr::app {
 namespace {
@@ -176,6 +177,7 @@ Result<RowTodo> todo_of(const Manifest& manifest, const ManifestRow& row,
                              row.command.empty() ? "an empty cell" : base::printable(row.command),
                              fmt::join(names, ", ")));
   const CLI::App& command = *app.get_subcommand(row.command);
+  speak_for(command);  // in what follows the row speaks
   Words words;
   for (std::size_t n = 0; n < manifest.columns.size(); ++n) {
     const std::string &column = manifest.columns[n], &cell = row.cells[n];
@@ -211,7 +213,7 @@ Result<CommandResult> do_row(const Manifest& manifest, const ManifestRow& row,
     if (!todo) return todo.error();
     CommandResult findings;
     const Status done = todo->work(findings);
-    if (!done) return judged(done.error(), manifest, row);
+    if (!done) return judged(in_options(done.error()), manifest, row);
     return findings;
   } catch (const std::bad_alloc&) {
     return error(kTryAgain,

@@ -15,6 +15,7 @@
 #include "burr/surface/worker.h"
 #include "burr/workshop/live_surface.h"
 #include "burr/workshop/work_view.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/recorded_session.h"
 #include "shared/subcommand.h"
@@ -169,7 +170,7 @@ Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& 
     if (made) {
       picture = std::move(*made);
     } else {
-      out.left_out.push_back("no picture was drawn: " + made.error().text);
+      out.left_out.push_back("no picture was drawn: " + in_options(made.error()).text);
     }
   }
   Recording recording;
@@ -178,7 +179,8 @@ Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& 
     const Status started =
         recording.start(session, options.record, volume, import, "pockets", false);
     records = started.ok();
-    if (!started) out.left_out.push_back("nothing was recorded: " + started.error().text);
+    if (!started)
+      out.left_out.push_back("nothing was recorded: " + in_options(started.error()).text);
   }
 
   std::unique_ptr<rt::IdleLoop> waiting;
@@ -202,7 +204,7 @@ Result<WholeOutcome> run_whole(sim::Session& session, const surgeon::WorkPlace& 
     }
     if (picture != nullptr && shown) {
       shown = picture->draw(row, out);
-      if (!shown) out.left_out.push_back("the picture stopped: " + shown.error().text);
+      if (!shown) out.left_out.push_back("the picture stopped: " + in_options(shown.error()).text);
       out.longest_frame_s = std::max(out.longest_frame_s, seconds_since(drawn));
       drawn = Clock::now();
     }

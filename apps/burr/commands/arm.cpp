@@ -11,6 +11,7 @@
 #include "burr/workshop/arm_publisher.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/spared.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
@@ -42,7 +43,7 @@ Status run(const Options& options) {
   if (const Status taken = take_case(requested); !taken) return taken;
   auto work = open_work(requested, progress());
   if (!work) return work.error();
-  for (const std::string& notice : work->summary.notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(work->summary.notices);
   const auto chosen = settings_of(requested, true);
   if (!chosen) return chosen.error();
   const sim::SessionSettings& settings = *chosen;

@@ -21,6 +21,7 @@
 #include "commands/export_dataset.h"
 #include "commands/export_dicom.h"
 #include "commands/export_pieces.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
 #include "shared/subcommand.h"
@@ -100,7 +101,7 @@ Result<Bones> open_plain(const Options& options) {
   }
   auto opened = workshop::open_bone(volume, progress(), bones.scan ? &*bones.scan : nullptr);
   if (!opened) return opened.error();
-  for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(opened->summary.notices);
   bones.before = std::move(opened->bone);
   return bones;
 }
@@ -125,7 +126,7 @@ Result<Bones> open_recording(const Options& options) {
     if (!moved) return moved.error();
     bones.moved = std::move(*moved);
   }
-  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
+  print_notices((*player)->notices());
   return bones;
 }
 
@@ -187,7 +188,7 @@ Status export_labels(const Options& options) {
   io::Scan source;  // as much as seg_options() asks for: a label map, and its study
   source.labels.assign(1, 0);
   source.study = scan->study;
-  for (const std::string& notice : scan->notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(scan->notices);
   auto labels = own_labels(std::move(*scan), volume);
   if (!labels) return labels.error();
   const auto dicom = seg_options(options.dicom, volume, &source, *labels, progress());

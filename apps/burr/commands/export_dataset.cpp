@@ -11,6 +11,7 @@
 #include "burr/record/player.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
 
@@ -120,7 +121,7 @@ Status export_dataset(const std::string& source, const scenario::BoneRecipe& vol
   if (!before) return before.error();
   const auto written = dataset::write(**player, **before, out, wanted, progress);
   if (!written) return written.error();
-  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
+  print_notices((*player)->notices());
   if (!written->late.empty())
     fmt::print(
         stderr,

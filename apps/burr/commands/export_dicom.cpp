@@ -14,6 +14,7 @@
 #include "burr/io/read/read_scan.h"
 #include "burr/workshop/open_bone.h"
 #include "shared/counted.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 
 namespace burr::app {
@@ -147,7 +148,7 @@ Result<io::Scan> own_labels(io::Scan scan, const scenario::BoneRecipe& recipe) {
 void tell_segments(const std::string& out, const std::vector<io::SegSegment>& segments,
                    const std::vector<std::string>& notices, double voxel_mm3, const char* part,
                    bool json) {
-  for (const std::string& notice : notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(notices);
   if (json) {
     nlohmann::ordered_json row = {{"part", part}, {"segments", nlohmann::ordered_json::array()}};
     for (const io::SegSegment& one : segments)

@@ -17,6 +17,7 @@
 #include "burr/fit/laws.h"
 #include "burr/fit/recorded_log.h"
 #include "burr/importing/materials.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
 #include "shared/subcommand.h"
@@ -105,7 +106,7 @@ nlohmann::json to_json(const Options& options, const fit::ForceLog& log,
                        const std::vector<fit::MaterialFit>& fits) {
   nlohmann::json out;
   for (const std::string& path : options.logs) out["logs"].push_back(short_name(path));
-  out["notices"] = log.notices;
+  out["notices"] = in_options(log.notices);
   for (const fit::MaterialFit& fit : fits) {
     nlohmann::json one = {{"material", fit.material},
                           {"rows_used", fit.rows},
@@ -174,7 +175,7 @@ Status run(const Options& options) {
     if (!one) return one.error();
     log.append(*one);
   }
-  for (const std::string& notice : log.notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(log.notices);
   const std::vector<fit::MaterialFit> fits = fit::fit_laws(log);
   bool any = false;
   for (const fit::MaterialFit& fit : fits) any = any || !fit.constants.empty();

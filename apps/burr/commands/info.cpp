@@ -17,6 +17,7 @@
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "commands/session_lines.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/subcommand.h"
 #include "shared/volume_words.h"
@@ -108,7 +109,7 @@ nlohmann::json to_json(const importing::ImportSummary& s) {
                           array(math::Vec3(s.axes.col(2)))}},
                         {"labels", s.labels},
                         {"hounsfield", s.hounsfield},
-                        {"notices", s.notices}};
+                        {"notices", in_options(s.notices)}};
   if (!s.labels) {
     out["low"] = s.low;
     out["high"] = s.high;
@@ -192,7 +193,7 @@ Result<importing::ImportSummary> look(const scenario::BoneRecipe& recipe) {
     s.high = *high;
   }
   s.notices = scan->notices;
-  s.notices.push_back("This volume cannot be milled: " + plan.error().text + ".");
+  s.notices.push_back("This volume cannot be milled: " + in_options(plan.error()).text + ".");
   return s;
 }
 
@@ -245,8 +246,9 @@ Status run_recording(const Options& options) {
   if (moved)
     for (const std::string& line : report::pieces_text(*moved)) fmt::print("  moved: {}\n", line);
   else  // the rest is known all the same
-    fmt::print("  pieces were moved; how they lie is not known: {}\n", moved.error().text);
-  for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", notice);
+    fmt::print("  pieces were moved; how they lie is not known: {}\n",
+               in_options(moved.error()).text);
+  for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", in_options(notice));
   if (!options.json) return fine();
   nlohmann::json out = {
       {"burr_version", info.burr_version},
@@ -255,7 +257,7 @@ Status run_recording(const Options& options) {
       {"finished", player.finished()},
       {"embedded", info.embedded},
       {"phantom", phantom.empty() ? nlohmann::json(nullptr) : nlohmann::json(phantom)},
-      {"notices", player.notices()},
+      {"notices", in_options(player.notices())},
       {"case", nullptr}};
   out.update(session_json(player));
   out["pieces"] =
@@ -282,7 +284,7 @@ Status run(const Options& options) {
   auto found = look(options.volume);
   if (!found) return found.error();
   print(*found);
-  for (const std::string& notice : found->notices) fmt::print("  note: {}\n", notice);
+  for (const std::string& notice : found->notices) fmt::print("  note: {}\n", in_options(notice));
   if (options.json) fmt::print("{}\n", json_line(with_fence(to_json(*found))));
   return fine();
 }

@@ -33,6 +33,7 @@
 #include "commands/mill_result.h"
 #include "commands/mill_way.h"
 #include "commands/second_options.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/outputs.h"
 #include "shared/recorded_session.h"
@@ -100,7 +101,7 @@ Result<importing::Imported> open_volume(MillOptions& options) {
     workshop::fit_burr(burr_mm, opened->bone->grid().voxel, opened->summary.notices);
     options.settings["burr_mm"] = burr_mm;
   }
-  for (const std::string& notice : opened->summary.notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(opened->summary.notices);
   return opened;
 }
 
@@ -129,7 +130,7 @@ Status run(MillOptions options, CommandResult* given) {
   std::vector<sim::PieceOrder> orders;
   for (const std::string& text : options.move_pieces) {
     auto order = report::piece_order(text);
-    if (!order) return order.error();
+    if (!order) return error(order.error().trouble, "--move-piece " + order.error().text);
     orders.push_back(*order);
   }
   std::optional<Carry> carry;
@@ -156,7 +157,7 @@ Status run(MillOptions options, CommandResult* given) {
   std::vector<std::string> doubts;
   if (!options.path_csv.empty())
     doubts = surgeon::doubts(*path, *opened->bone, 0.5e-3 * options.burr_mm(), options.path_csv);
-  for (const std::string& doubt : doubts) fmt::print(stderr, "{}\n", doubt);
+  print_notices(doubts);
 
   if (carry) carry_on(*path, *carry);
   if (!orders.empty() || carry) rest_at_end(*path);

@@ -18,6 +18,7 @@
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/subcommand.h"
 #include "shared/volume_words.h"
@@ -49,7 +50,7 @@ Status run(const Options& options) {
   const auto moved =
       report::moved_pieces_of(**player, *now, lesson ? &*lesson : nullptr, options.at_s);
   if (!moved) return moved.error();
-  for (const std::string& notice : (*player)->notices()) fmt::print(stderr, "{}\n", notice);
+  print_notices((*player)->notices());
   const volume::PieceFinder finder(std::as_const(*now));
   const std::size_t free = moved->store.list(*now).size();
   std::size_t splinters = 0;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "burr/record/repair.h"
+#include "shared/front_words.h"
 #include "shared/outputs.h"
 #include "shared/subcommand.h"
 
@@ -26,7 +27,7 @@ Status run(const Options& options) {
   const std::string& out = options.out.empty() ? options.path : options.out;
   const auto report = record::repair(options.path, out, app::progress());
   if (!report) return report.error();
-  for (const std::string& notice : report->notices) fmt::print("{}\n", notice);
+  app::print_notices(report->notices, stdout);
   if (report->was_whole) {
     fmt::print("{}: is complete, nothing to repair ({} ticks, {:.3f} s)\n", options.path,
                report->ticks, report->seconds);

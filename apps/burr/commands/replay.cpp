@@ -35,6 +35,7 @@
 #include "burr/workshop/traces.h"
 #include "burr/workshop/work_view.h"
 #include "shared/film_file.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
 #include "shared/law_options.h"
@@ -245,7 +246,8 @@ Status sound_of(const Options& options, record::Player& player, const sim::Recor
     } else if (interrupted()) {
       return bone.error();
     } else {
-      fmt::print(stderr, "no warnings near structures to spare: {}\n", bone.error().text);
+      fmt::print(stderr, "no warnings near structures to spare: {}\n",
+                 in_options(bone.error()).text);
     }
   }
   const auto& other = player.info().second;
@@ -312,7 +314,7 @@ Status run(const Options& options) {
   auto opened = record::Player::open(options.file);
   if (!opened) return opened.error();
   record::Player& player = **opened;
-  for (const std::string& notice : player.notices()) fmt::print(stderr, "{}\n", notice);
+  print_notices(player.notices());
   auto recorded = sim::settings_of(player.info(), player.path());
   if (!recorded) return recorded.error();
   if (options.at > player.seconds())

@@ -17,6 +17,7 @@
 #include "burr/report/score_words.h"
 #include "burr/report/scored.h"
 #include "burr/report/self_marks.h"
+#include "shared/front_words.h"
 #include "shared/outputs.h"
 #include "shared/subcommand.h"
 #include "shared/volume_words.h"
@@ -34,7 +35,7 @@ struct Options {
 Result<report::Scored> scored_file(const std::string& file, const Options& options) {
   auto judged = report::judged_by(file, options.rubric);
   if (!judged) return judged.error();
-  for (const std::string& notice : judged->player->notices()) fmt::print(stderr, "{}\n", notice);
+  print_notices(judged->player->notices());
   return report::scored(std::move(*judged), options.volume, progress());
 }
 
@@ -72,7 +73,7 @@ Status run_report(const Options& options) {
     if (!marks) return marks.error();
     settings.self = std::move(*marks);
   }
-  for (const std::string& notice : judged->player->notices()) fmt::print(stderr, "{}\n", notice);
+  print_notices(judged->player->notices());
   auto mine = report::scored(std::move(*judged), options.volume, progress());
   if (!mine) return mine.error();
   std::optional<report::Scored> expert;

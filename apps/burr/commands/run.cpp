@@ -28,6 +28,7 @@
 #include "commands/summary.h"
 #include "school/xapi.h"
 #include "shared/bone_option.h"
+#include "shared/front_words.h"
 #include "shared/hand_options.h"
 #include "shared/identity_options.h"
 #include "shared/interrupt.h"
@@ -154,7 +155,7 @@ Result<Closed> session_in_window(Desk& desk, const Options& options) {
       [work](Progress& seen) { return open_ready(work, seen); }, closed);
   if (closed) return Closed::window;
   if (!loaded) return loaded.error();
-  for (const std::string& notice : loaded->import.notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(loaded->import.notices);
   const WindowOptions window = {.seconds = options.seconds,
                                 .folder = options.out,
                                 .screenshot = options.screenshot,

@@ -23,6 +23,7 @@
 #include "burr/workshop/tool_looks.h"
 #include "burr/workshop/work_view.h"
 #include "commands/summary.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/recorded_session.h"
 #include "shared/subcommand.h"
@@ -79,7 +80,7 @@ Status run_headless(const RunOptions& options) {
   auto opened = open_work(requested, progress());
   if (!opened) return opened.error();
   workshop::PreparedBone& work = *opened;
-  for (const std::string& notice : work.summary.notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(work.summary.notices);
   const auto chosen = settings_of(requested, false);
   if (!chosen) return chosen.error();
   const sim::SessionSettings& settings = *chosen;

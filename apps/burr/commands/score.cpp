@@ -23,10 +23,12 @@
 #include "burr/scoring/reference.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"
+#include "burr/workshop/case_session.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
 #include "burr/workshop/prepare.h"
 #include "shared/bone_option.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/subcommand.h"
 #include "shared/volume_words.h"
@@ -101,7 +103,7 @@ Status run_score(const Options& options, CommandResult* given) {
     return fine();
   }
   wanted = rubric.item(options.explain);  // of the rubric as it was moved
-  for (const std::string& notice : player.notices()) fmt::print(stderr, "{}\n", notice);
+  print_notices(player.notices());
   if (wanted != nullptr) {
     const auto at = static_cast<std::size_t>(wanted - rubric.items.data());
     fmt::print("{}\n", report::explanation(*wanted, score.outcomes[at], player.info().rate_hz));
@@ -178,6 +180,7 @@ Status run_check(const Options& options) {
       scenario::read_case(options.work_case.empty() ? rubric->case_source : options.work_case);
   if (!work) return work.error();
   if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken;
+  if (const Status set = workshop::check_session(*work); !set) return set;
   const auto lesson = report::lesson_for(*work, *rubric);
   if (!lesson) return lesson.error();
   const auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());

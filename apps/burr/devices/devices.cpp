@@ -10,6 +10,7 @@
 #include "burr/workshop/hand_device.h"
 #include "devices/springs_words.h"
 #include "devices/trial.h"
+#include "shared/front_words.h"
 #include "shared/hand_options.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
@@ -36,15 +37,17 @@ Status tell(const workshop::HandKind& kind, const std::string& name,
   if (!device) return device.error();
   const Status opened = (*device)->open();
   if (!opened) {
-    all.push_back(
-        {{"name", name}, {"kind", kind.name}, {"there", false}, {"why", opened.error().text}});
+    all.push_back({{"name", name},
+                   {"kind", kind.name},
+                   {"there", false},
+                   {"why", in_options(opened.error()).text}});
     if (!as_json)
       fmt::print("{:<16} {}\n                 not found: {}\n", name, kind.makes,
-                 opened.error().text);
+                 in_options(opened.error()).text);
     return fine();
   }
   const device::DeviceSpec spec = (*device)->spec();
-  const std::string trouble = (*device)->trouble();
+  const std::string trouble = in_options((*device)->trouble());
   (*device)->close();
   const workshop::DevicePreferences preferences = book.of(workshop::id_of(spec));
   all.push_back({{"name", name},
@@ -86,7 +89,7 @@ Status tell(const workshop::HandKind& kind, const std::string& name,
 Status list(const Options& options) {
   nlohmann::json all = nlohmann::json::array();
   const workshop::DeviceBook book = workshop::DeviceBook::read(workshop::users_book());
-  for (const std::string& trouble : book.troubles()) fmt::print(stderr, "{}\n", trouble);
+  print_notices(book.troubles());
   if (!options.json)
     fmt::print("mouse, gamepad, pedal, SpaceMouse  in the window, without force\n");
   for (const workshop::HandKind& kind : workshop::hand_kinds()) {
@@ -121,7 +124,7 @@ Status set(const Options& options) {
   const std::string id = workshop::id_of((*device)->spec());
   (*device)->close();
   workshop::DeviceBook book = workshop::DeviceBook::read(workshop::users_book());
-  for (const std::string& trouble : book.troubles()) fmt::print(stderr, "{}\n", trouble);
+  print_notices(book.troubles());
   for (const std::string& assignment : options.assignments) {
     const Status taken = book.set(id, assignment);
     if (!taken) return taken;

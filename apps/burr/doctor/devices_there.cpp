@@ -9,6 +9,7 @@
 #include "burr/workshop/hand_device.h"
 #include "doctor/doctor_checks.h"
 #include "doctor/run_in_process.h"
+#include "shared/front_words.h"
 
 namespace burr::app {
 namespace {
@@ -19,11 +20,11 @@ constexpr const char* kGroup = "haptic devices";
 std::string of_library(const std::string& kind) {
   if (kind == "touch") {
     const auto hd = device::openhaptics::load();
-    return hd ? "+" + (*hd)->file : "-" + hd.error().text;
+    return hd ? "+" + (*hd)->file : "-" + in_options(hd.error()).text;
   }
   if (kind == "force-dimension") {
     const auto dhd = device::forcedimension::load();
-    if (!dhd) return "-" + dhd.error().text;
+    if (!dhd) return "-" + in_options(dhd.error()).text;
     const std::string& version = (*dhd)->version;
     return "+" + (*dhd)->file + (version.empty() ? "" : " " + version);
   }
@@ -34,11 +35,11 @@ std::string of_device(const std::string& kind) {
   workshop::HandRequest request;
   request.device = kind;
   auto device = workshop::make_hand(request);
-  if (!device) return "-" + device.error().text;
+  if (!device) return "-" + in_options(device.error()).text;
   const Status opened = (*device)->open();
-  if (!opened) return "-" + opened.error().text;
+  if (!opened) return "-" + in_options(opened.error()).text;
   const device::DeviceSpec spec = (*device)->spec();
-  const std::string trouble = (*device)->trouble();
+  const std::string trouble = in_options((*device)->trouble());
   (*device)->close();
   const std::string words =
       fmt::format("{}: {:.1f} N, {:.0f} Hz{}{}", workshop::id_of(spec), spec.peak_force,

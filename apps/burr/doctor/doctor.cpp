@@ -13,6 +13,7 @@
 #include "bench/machine_trial.h"
 #include "doctor/doctor_checks.h"
 #include "doctor/fix.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/subcommand.h"
 
@@ -73,7 +74,7 @@ Status run(const Options& options) {
     Finding tried{"trial", fmt::format("{:g} seconds", options.seconds), Health::trouble, "", ""};
     if (!measured) {
       if (measured.error().trouble == Trouble::interrupted) return measured.error();
-      tried.value = measured.error().text;
+      tried.value = in_options(measured.error()).text;
       tried.todo = "burr check repeats the trial";
     } else {
       const rt::TickSummary& t = measured->seen.milling_loaded;

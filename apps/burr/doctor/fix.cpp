@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "burr/base/new_file.h"
+#include "shared/front_words.h"
 
 namespace burr::app {
 namespace {
@@ -64,10 +65,10 @@ Result<std::string> write_rules(const System& system,
     return cannot(fmt::format("{}: the folder cannot be made ({})", file.parent_path().string(),
                               trouble.message()));
   auto out = base::NewFile::create(file.string());
-  if (!out) return cannot(out.error().text);
+  if (!out) return cannot(in_options(out.error()).text);
   out->write(rules);
   const Status put = out->put_in_place();
-  if (!put) return cannot(put.error().text);
+  if (!put) return cannot(in_options(put.error()).text);
   if (no_udev)
     return said + "written, but udev, which reads it, is not on this computer: apt install udev";
   return said +

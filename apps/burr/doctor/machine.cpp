@@ -11,6 +11,7 @@
 #include "burr/rt/machine_check.h"
 #include "burr/rt/thread.h"
 #include "doctor/doctor_checks.h"
+#include "shared/front_words.h"
 
 namespace burr::app {
 namespace {
@@ -54,7 +55,7 @@ std::vector<Finding> look_at_screen(const System&) {
   const auto renderer = render::Renderer::offscreen();
   if (!renderer) {
     picture.health = Health::trouble;
-    picture.value = renderer.error().text;
+    picture.value = in_options(renderer.error()).text;
     picture.todo = "apt install libgl1-mesa-dri libegl1, or the driver of your graphics card";
   } else {
     picture.value = (*renderer)->gpu();

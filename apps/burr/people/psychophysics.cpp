@@ -21,6 +21,7 @@
 #include "burr/workshop/hand_device.h"
 #include "people/run.h"
 #include "scenes/wall.h"
+#include "shared/front_words.h"
 #include "shared/hand_options.h"
 #include "shared/interrupt.h"
 #include "shared/json_line.h"
@@ -132,7 +133,7 @@ class Lab {
       if (!felt) return felt.error();
       const std::string trouble = hand_->trouble();
       if (trouble.empty() || interrupted()) return sim::sensed(run_.plan.stimulus, *felt);
-      fmt::print(stderr, "{} Interval {} again ...\n", trouble, interval);
+      fmt::print(stderr, "{} Interval {} again ...\n", in_options(trouble), interval);
       std::this_thread::sleep_for(std::chrono::seconds(1));
     }
   }
@@ -188,7 +189,7 @@ Result<std::unique_ptr<device::MappedHand>> take_hand(const Options& options, Pe
   auto laid = workshop::open_hand(request, above,
                                   math::Quat(Eigen::AngleAxisd(M_PI / 2, math::Vec3::UnitX())));
   if (!laid) return laid.error();
-  for (const std::string& notice : laid->notices) fmt::print(stderr, "{}\n", notice);
+  print_notices(laid->notices);
   run.device_id = laid->id;
   run.wall.rate_hz = workshop::tick_rate(laid->hand->spec());
   run.wall.user_force = laid->max_force;

@@ -31,6 +31,7 @@
 #include "school/store_command.h"
 #include "school/xapi.h"
 #include "shared/counted.h"
+#include "shared/front_words.h"
 #include "shared/outputs.h"
 #include "shared/subcommand.h"
 #include "shared/volume_words.h"
@@ -233,7 +234,7 @@ Status forget_one(school::Store& store, const std::string& id, Json& all) {
     fmt::print("deleted: {}\n", base::printable(one, 400));
   for (const std::string& one : done->unreached)
     fmt::print("not reached, delete it yourself: {}\n", base::printable(one, 400));
-  for (const std::string& one : done->notices) fmt::print(stderr, "{}\n", one);
+  print_notices(done->notices);
   all.push_back({{"sessions", done->sessions},
                  {"deleted", done->deleted},
                  {"unreached", done->unreached},

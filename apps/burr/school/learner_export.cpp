@@ -19,6 +19,7 @@
 #include "burr/school/uuid.h"
 #include "school/store_command.h"
 #include "shared/counted.h"
+#include "shared/front_words.h"
 #include "shared/outputs.h"
 #include "shared/subcommand.h"
 #include "shared/word_names.h"
@@ -71,7 +72,7 @@ void add_reports(const Options& options, const std::vector<school::SessionRow>& 
           {fmt::format("report_{}_{}.html", day_of(one.started_ms), one.id.substr(0, 8)),
            report::page_of(*report)});
     else
-      missing.push_back(fmt::format("{} ({})", one.recording_uri, report.error().text));
+      missing.push_back(fmt::format("{} ({})", one.recording_uri, in_options(report.error()).text));
   }
 }
 

@@ -16,6 +16,7 @@
 #include "school/store_command.h"
 #include "school/xapi.h"
 #include "shared/counted.h"
+#include "shared/front_words.h"
 #include "shared/subcommand.h"
 
 namespace burr::app {
@@ -76,8 +77,8 @@ Status take_in_sessions(const LearnerOptions& options) {
         if (const auto found = failed.find(one.file); found != failed.end()) return found->second;
         return score_waiting(one);
       });
-  for (const std::string& line : notices) fmt::print(stderr, "{}\n", line);
-  for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
+  print_notices(notices);
+  print_notices(in.notices);
   say_others(in);
   fmt::print("{} came into the store, {} still waiting\n", counted(in.taken, "session"), in.left);
   print_json(options.json, {{"taken", in.taken}, {"left", in.left}});

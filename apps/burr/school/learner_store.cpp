@@ -7,6 +7,7 @@
 
 #include "school/store_command.h"
 #include "shared/counted.h"
+#include "shared/front_words.h"
 
 namespace burr::app {
 
@@ -30,10 +31,10 @@ Result<std::unique_ptr<school::Store>> open_store(const LearnerOptions& options,
     if (const Status there = check_store_is_there(*where); !there) return there.error();
   auto store = school::Store::open(*where);
   if (!store) return store.error();
-  for (const std::string& line : (*store)->notices()) fmt::print(stderr, "{}\n", line);
+  print_notices((*store)->notices());
   if ((*store)->reads_only()) return store;
   const school::TakenIn in = school::take_in(**store, {});
-  for (const std::string& line : in.notices) fmt::print(stderr, "{}\n", line);
+  print_notices(in.notices);
   if (in.taken > 0)
     fmt::print(stderr, "{} that waited came into the store\n", counted(in.taken, "session"));
   if (in.unscored > 0)

@@ -7,6 +7,7 @@
 
 #include "burr/base/places.h"
 #include "burr/base/printable.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 
 namespace burr::app {
@@ -32,7 +33,7 @@ Result<std::unique_ptr<school::Store>> store_that_is_there(const std::string& gi
   if (const Status there = check_store_is_there(*place); !there) return there.error();
   auto store = school::Store::open(*place);
   if (!store) return store.error();
-  for (const std::string& line : (*store)->notices()) fmt::print(stderr, "{}\n", line);
+  print_notices((*store)->notices());
   return store;
 }
 

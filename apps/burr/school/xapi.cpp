@@ -19,6 +19,7 @@
 #include "burr/school/outbox.h"
 #include "school/store_command.h"
 #include "shared/counted.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/subcommand.h"
 
@@ -188,7 +189,7 @@ void tell_waiting_launches() {
   if (told.launches > 0)
     fmt::print(stderr, "{} kept from earlier were sent to the learning management system\n",
                told.launches == 1 ? "1 launch" : fmt::format("{} launches", told.launches));
-  for (const std::string& line : told.notices) fmt::print(stderr, "{}\n", line);
+  print_notices(told.notices);
 }
 
 void send_what_is_due(school::Store& store) {
@@ -198,7 +199,7 @@ void send_what_is_due(school::Store& store) {
   if (!lrs) return;  // another computer has the key
   const auto sent = lrs::send_due(store, *lrs, {});
   if (!sent)
-    fmt::print(stderr, "statements: {}\n", sent.error().text);
+    fmt::print(stderr, "statements: {}\n", in_options(sent.error()).text);
   else if (!sent->trouble.empty())
     fmt::print(stderr, "statements wait: {}\n", sent->trouble);
 }

@@ -24,6 +24,7 @@
 #include "burr/school/uuid.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 
 namespace burr::app {
@@ -251,7 +252,7 @@ void Replays::prepare(const std::stop_token& stop) {
     lock.lock();
     replay->state = done ? Replay::State::ready : Replay::State::failed;
     if (done) continue;
-    replay->why = done.error().text;
+    replay->why = in_options(done.error()).text;
     replay->status = done.error().trouble == Trouble::io ? 500 : 409;
   }
 }
@@ -306,7 +307,7 @@ net::Response Replays::answer(school::Store& store, const net::Request& request)
   const std::string session = request.asked("session");
   const auto rows = store.database().rows(
       "SELECT recording_uri, recording_hash FROM session WHERE id = $1", {session});
-  if (!rows) return net::refusal(503, rows.error().text);
+  if (!rows) return net::refusal(503, in_options(rows.error()).text);
   if (rows->empty()) {
     drop(session);
     return net::refusal(404, "there is no such session");

@@ -19,6 +19,7 @@
 #include "burr/scoring/measure_list.h"
 #include "burr/scoring/rubric.h"
 #include "school/practice_words.h"
+#include "shared/front_words.h"
 #include "shared/json_line.h"
 
 namespace burr::app {
@@ -82,9 +83,12 @@ Response overview_of(Store& store, school::PracticeMemo& memo) {
   if (!cohorts) return trouble(cohorts.error());
   const auto cases = store.database().rows("SELECT DISTINCT name FROM case_def ORDER BY name");
   if (!cases) return trouble(cases.error());
-  Json out = {{"version", base::version()}, {"read_only", store.reads_only()},
-              {"notices", store.notices()}, {"cases", Json::array()},
-              {"cohorts", Json::array()},   {"learners", Json::array()}};
+  Json out = {{"version", base::version()},
+              {"read_only", store.reads_only()},
+              {"notices", in_options(store.notices())},
+              {"cases", Json::array()},
+              {"cohorts", Json::array()},
+              {"learners", Json::array()}};
   for (const school::Row& row : *cases) out["cases"].push_back(school::text(row[0]));
   for (const school::Cohort& one : *cohorts)
     out["cohorts"].push_back(

@@ -14,6 +14,7 @@
 #include "burr/report/questions.h"
 #include "burr/scoring/rubric.h"
 #include "burr/workshop/recording.h"
+#include "shared/front_words.h"
 #include "shared/subcommand.h"
 
 namespace burr::app {
@@ -56,12 +57,12 @@ void Recording::tell(const Error& problem) {
     trouble_ = problem;
   }
   fmt::print(stderr, "{}burr: {}; the session continues without recording\n",
-             isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", problem.text);
+             isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", in_options(problem).text);
 }
 
 std::string Recording::trouble() const {
   const std::lock_guard lock(mutex_);
-  return trouble_ ? "NOT RECORDED ANY MORE: " + trouble_->text : "";
+  return trouble_ ? "NOT RECORDED ANY MORE: " + in_options(*trouble_).text : "";
 }
 
 Status Recording::finish(sim::Session& session, bool stopped) {

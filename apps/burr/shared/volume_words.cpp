@@ -10,13 +10,13 @@ namespace burr::app {
 namespace {
 
 // Converts a text of the command line. An error is thrown in the form of CLI11, which writes the
-// name of the option before it.
+// name of the option before it, where the library wrote that of the field.
 template <class Value>
 Value taken(const std::string& option, Result<Value> read) {
   if (read) return std::move(*read);
   std::string text = read.error().text;
-  const std::string before = option + ": ";
-  if (text.starts_with(before)) text.erase(0, before.size());
+  const std::size_t named = text.starts_with('`') ? text.find("`: ") : std::string::npos;
+  if (named != std::string::npos) text.erase(0, named + 3);
   throw CLI::ValidationError(option, text);
 }
 

@@ -12,6 +12,7 @@
 #include "burr/phantom/build.h"
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/open_bone.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/subcommand.h"
 #include "verify.h"
@@ -192,13 +193,13 @@ void real_bones(const Verify& verify, VerifyReport::Part& part, Table& table) {
       opened = workshop::open_bone(recipe, progress());
     }
     if (!opened) {
-      part.cannot(fmt::format("{}: {}", subject.name, opened.error().text));
+      part.cannot(fmt::format("{}: {}", subject.name, in_options(opened.error()).text));
       continue;
     }
     const double r = 8 * opened->bone->grid().voxel;
     const auto place = surgeon::find_work_place(*opened->bone, r, {}, {});
     if (!place) {
-      part.cannot(fmt::format("{}: {}", subject.name, place.error().text));
+      part.cannot(fmt::format("{}: {}", subject.name, in_options(place.error()).text));
       continue;
     }
     const Vec3 along = place->into.unitOrthogonal(), at = place->at - r * place->into;

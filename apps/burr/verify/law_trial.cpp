@@ -15,6 +15,7 @@
 #include "burr/tick/law_call.h"
 #include "burr/workshop/law_file.h"
 #include "pressing.h"
+#include "shared/front_words.h"
 
 namespace burr::app {
 namespace {
@@ -252,9 +253,9 @@ nlohmann::json in_closed_loops(const LawTrial& trial) {
 std::string try_law(const LawTrial& trial, LawStage& stage) {
   stage = 0;
   auto law = workshop::LawFile::open(trial.file, trial.settings);
-  if (!law) return nlohmann::json({{"error", law.error().text}}).dump();
+  if (!law) return nlohmann::json({{"error", in_options(law.error()).text}}).dump();
   if (const Status begun = (*law)->begin(); !begun)
-    return nlohmann::json({{"error", begun.error().text}}).dump();
+    return nlohmann::json({{"error", in_options(begun.error()).text}}).dump();
   nlohmann::json out;
   out["sha256"] = (*law)->about().sha256;
   stage = 1;

@@ -8,6 +8,7 @@
 #include "burr/people/observer.h"
 #include "burr/sim/feeling.h"
 #include "scenes/wall.h"
+#include "shared/front_words.h"
 #include "verify.h"
 
 namespace burr::app {
@@ -145,7 +146,7 @@ void people_part(const Verify& verify, VerifyReport::Part& part) {
       if (!fresh) return at->second;
       auto one = sim::feel(wall, ask.stimulus, value, gesture, 2);
       if (one) at->second = *one;
-      if (!one) trouble = one.error().text;
+      if (!one) trouble = in_options(one.error()).text;
       return at->second;
     };
     const double strong = ask.stimulus == Stimulus::vibration ? 0.06 : 1.5 * ask.standard;

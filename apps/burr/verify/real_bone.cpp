@@ -10,6 +10,7 @@
 #include "burr/surgeon/motion.h"
 #include "burr/volume/sample.h"
 #include "burr/workshop/open_bone.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/subcommand.h"
 #include "verify.h"
@@ -163,13 +164,13 @@ void bones(const Verify& verify, VerifyReport::Part& part) {
     options.spacing_mm = math::Vec3::Constant(subject.spacing_mm);
     auto opened = workshop::open_bone(options, progress());
     if (!opened) {
-      part.cannot(fmt::format("{}: {}", subject.name, opened.error().text));
+      part.cannot(fmt::format("{}: {}", subject.name, in_options(opened.error()).text));
       continue;
     }
     const double h = opened->bone->grid().voxel, r = kBurrVoxels * h;
     auto place = surgeon::find_work_place(*opened->bone, r, {}, {});
     if (!place) {
-      part.cannot(fmt::format("{}: {}", subject.name, place.error().text));
+      part.cannot(fmt::format("{}: {}", subject.name, in_options(place.error()).text));
       continue;
     }
     WorkSettings settings;

@@ -16,6 +16,7 @@
 #include "burr/surface/shells.h"
 #include "burr/workshop/open_bone.h"
 #include "scenes/thin_shapes.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/subcommand.h"
 #include "verify.h"
@@ -95,7 +96,7 @@ void shapes(const Verify& verify, VerifyReport::Part& part) {
                                              way.spacing_mm, way.noise);
       const auto one = judge(drawn.scan, {});
       if (!one) {
-        part.cannot(fmt::format("{}: {}", way.name, one.error().text));
+        part.cannot(fmt::format("{}: {}", way.name, in_options(one.error()).text));
         return;
       }
       ghosts += static_cast<double>(one->law.ghosts + one->law.ramps);
@@ -149,7 +150,7 @@ void smooth_ball(VerifyReport::Part& part) {
         }
     const auto made = importing::import_bone(scan, {}, progress());
     if (!made) {
-      part.cannot(made.error().text);
+      part.cannot(in_options(made.error()).text);
       return;
     }
     const auto mesh = surface::whole_surface(*made->bone, 2, progress());
@@ -208,7 +209,7 @@ void real(const Verify& verify, VerifyReport::Part& part) {
     const auto scan = io::read_scan(recipe.source, workshop::read_options(recipe), progress());
     const auto one = scan ? judge(*scan, recipe) : Result<Judged>(scan.error());
     if (!one) {
-      part.cannot(fmt::format("{}: {}", subject.name, one.error().text));
+      part.cannot(fmt::format("{}: {}", subject.name, in_options(one.error()).text));
       continue;
     }
     const std::string name = std::string("real.") + subject.name;

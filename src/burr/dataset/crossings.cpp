@@ -29,7 +29,7 @@ Result<Crossings> crossings_of_states(record::Player& player, const volume::Bone
     if (row.brick < 0 || row.brick >= before.brick_count())
       return error(player.path() +
                    ": changes a brick that this bone does not have; give the right bone with "
-                   "--volume");
+                   "`volume`");
     const Inside is = inside_of(row.field.voxel);
     const auto [at, first] = now.try_emplace(row.brick);
     if (first) at->second = inside_of(before.brick_field(row.brick));

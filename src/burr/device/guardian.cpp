@@ -41,9 +41,10 @@ class Descriptor {
 };
 
 Error failed(const char* what) {
-  return error(Trouble::io, fmt::format("burr-guard, which releases the force if burr dies, cannot "
-                                        "be started ({}: {}); see burr doctor",
-                                        what, std::strerror(errno)));
+  return error(Trouble::io,
+               fmt::format("burr-guard, which releases the force if burr dies, cannot "
+                           "be started ({}: {}); if it is not there, install burr again",
+                           what, std::strerror(errno)));
 }
 
 }  // namespace
@@ -112,11 +113,9 @@ Result<std::unique_ptr<Guardian>> Guardian::start(std::vector<std::string> words
     answer.append(some.data(), static_cast<std::size_t>(got));
   }
   if (answer.starts_with('+')) return guardian;
-  return error(
-      Trouble::io,
-      !answer.empty()
-          ? answer
-          : "burr-guard, which releases the force if burr dies, does not answer; see burr doctor");
+  return error(Trouble::io, !answer.empty() ? answer
+                                            : "burr-guard, which releases the force if burr dies, "
+                                              "does not answer; install burr again");
 }
 
 Guardian::~Guardian() {

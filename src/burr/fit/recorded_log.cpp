@@ -56,7 +56,7 @@ Result<std::string> only_solid(const volume::TissueTable& tissues, const std::st
   if (solid == 1) return name;
   return error(Trouble::usage,
                fmt::format("{}: the bone has {} solid tissues, and a recording does not say which "
-                           "one was cut; name it with --material",
+                           "one was cut; name it as `material`",
                            file, solid));
 }
 

@@ -34,8 +34,8 @@ Result<FoundParts> parts_of(const io::Scan& scan, const scenario::BoneRecipe& re
     return parts_of(scan, *shape, progress);
   } catch (const std::bad_alloc&) {
     return error(
-        "not enough memory to look for the parts of the bone; use a larger --voxel-mm or a "
-        "smaller --roi");
+        "not enough memory to look for the parts of the bone; use a larger `voxel_mm` or a "
+        "smaller `region`");
   }
 }
 
@@ -92,10 +92,10 @@ Result<Imported> import_bone(const io::Scan& scan, const scenario::BoneRecipe& r
     made.summary.solid_mm3 = volume::volume_of(bone) * 1e9;
     made.summary.memory_mb = static_cast<double>(bone.memory_bytes()) / 1048576.0;
     if (made.summary.solid_mm3 <= 0)
-      return error("there is no bone at this surface level; choose another with --iso");
+      return error("there is no bone at this surface level; choose another with `iso`");
     return made;
   } catch (const std::bad_alloc&) {
-    return error("not enough memory for the bone; use a larger --voxel-mm or a smaller --roi");
+    return error("not enough memory for the bone; use a larger `voxel_mm` or a smaller `region`");
   }
 }
 

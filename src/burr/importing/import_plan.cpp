@@ -36,7 +36,7 @@ Status set_region(const io::Scan& scan, const scenario::BoneRecipe& recipe, Impo
     const auto& range = box[static_cast<std::size_t>(a)];
     if (range[0] < 0 || range[1] >= scan.size[a] || range[0] > range[1])
       return error(Trouble::usage,
-                   fmt::format("--roi: {} {}..{} is outside 0..{}; choose a smaller region",
+                   fmt::format("`region`: {} {}..{} is outside 0..{}; choose a smaller region",
                                kAxes[a], range[0], range[1], scan.size[a] - 1));
     out.roi_from[a] = range[0];
     out.roi_size[a] = range[1] - range[0] + 1;
@@ -71,7 +71,7 @@ Status set_voxels(const io::Scan& scan, const scenario::BoneRecipe& recipe, Plan
   if (recipe.voxel_mm != 0) {
     if (!(recipe.voxel_mm >= 0.005 && recipe.voxel_mm <= 20))
       return error(Trouble::usage,
-                   fmt::format("--voxel-mm: {} is out of range; use 0.005 to 20", recipe.voxel_mm));
+                   fmt::format("`voxel_mm`: {} is out of range; use 0.005 to 20", recipe.voxel_mm));
     voxel = recipe.voxel_mm;
     // nearly cubic and wanted as it is: an axis off by less than a third of a voxel in all stays
   } else {
@@ -80,7 +80,7 @@ Status set_voxels(const io::Scan& scan, const scenario::BoneRecipe& recipe, Plan
     if (voxel > finest)
       out.notices.push_back(fmt::format(
           "Voxels of {:.3g} mm would need {:.0f} MB, more than the memory budget of {:.0f} MB: "
-          "voxels of {:.3g} mm are used instead; crop with --roi or give --voxel-mm.",
+          "voxels of {:.3g} mm are used instead; crop with `region` or give `voxel_mm`.",
           finest, memory_mb(finest), recipe.memory_mb, voxel));
   }
   double voxels = 1;
@@ -89,7 +89,7 @@ Status set_voxels(const io::Scan& scan, const scenario::BoneRecipe& recipe, Plan
   if (voxels > 1.6e9)
     return error(Trouble::usage,
                  fmt::format("voxels of {:.3g} mm make {:.1f} billion voxels, more than 1.6 "
-                             "billion; use a larger --voxel-mm or a smaller --roi",
+                             "billion; use a larger `voxel_mm` or a smaller `region`",
                              voxel, voxels / 1e9));
 
   // a grid that is cubic but for rounding in its header is not resampled
@@ -132,16 +132,16 @@ Status answer(const io::Scan& scan, const scenario::BoneRecipe& recipe, ImportSu
         if (!is_answered)
           return error(question.text +
                        "; copy the files again, or go on without these slices with "
-                       "--allow-missing");
-        out.notices.push_back(question.text + "; used all the same (--allow-missing).");
+                       "`allow_missing`");
+        out.notices.push_back(question.text + "; used all the same (`allow_missing`).");
         break;
       case io::Ask::spacing:
         if (!is_answered)
-          return error(question.text + "; give the size of a voxel with --spacing-mm X,Y,Z");
+          return error(question.text + "; give the size of a voxel with `spacing_mm` X,Y,Z");
         break;
       case io::Ask::doubt:
-        if (!is_answered) return error(question.text + "; to use it all the same, give --as-it-is");
-        out.notices.push_back(question.text + "; used all the same (--as-it-is).");
+        if (!is_answered) return error(question.text + "; to use it all the same, give `as_it_is`");
+        out.notices.push_back(question.text + "; used all the same (`as_it_is`).");
         break;
     }
   }
@@ -200,7 +200,7 @@ Status plan_labels(const io::Scan& scan, const scenario::BoneRecipe& recipe,
   say_notes(scan, out, [&scan, &solid](std::size_t voxel) { return solid[scan.labels[voxel]]; });
   if (!any_solid)
     return error(
-        "no label is solid, so there is nothing to mill; mark the solid labels with --tissues");
+        "no label is solid, so there is nothing to mill; mark the solid labels with `labels`");
   return fine();
 }
 
@@ -235,7 +235,7 @@ bool estimate_iso(const io::Scan& scan, bool check_scan, ImportSummary& out) {
   out.iso_why = estimate.why;
   out.notices.push_back(fmt::format(
       "The values are not HU: the surface level {:.4g} is an estimate (how sure: {}): {}; "
-      "give another level with --iso.",
+      "give another level with `iso`.",
       out.iso, word_of(out.iso_sure), out.iso_why));
   return true;
 }
@@ -250,7 +250,7 @@ Status say_cut_off(const io::Scan& scan, const scenario::BoneRecipe& recipe, Imp
   if (high && cut.high_value <= kBoneHu && !recipe.iso && !recipe.as_it_is)
     return error(fmt::format(
         "the values were cut off below bone, as by the window of a viewer ({}), and bone begins at "
-        "{:.0f} HU; export the scan again without a window, or give a level with --iso",
+        "{:.0f} HU; export the scan again without a window, or give a level with `iso`",
         piles_text(cut), kBoneHu));
   out.notices.push_back(
       fmt::format("The values were cut off, as by the window of a viewer: {}.", piles_text(cut)));
@@ -271,16 +271,16 @@ Status set_iso(const io::Scan& scan, const scenario::BoneRecipe& recipe, ImportS
     out.iso_by_otsu = true;
     out.notices.push_back(
         scan.hounsfield ? fmt::format("No voxel reaches {:.0f} HU: Otsu's threshold {:.4g} is used "
-                                      "as surface level; see --iso.",
+                                      "as surface level; see `iso`.",
                                       kBoneHu, out.iso)
                         : fmt::format("The values are not HU: Otsu's threshold {:.4g} between dark "
-                                      "and bright is used as surface level; see --iso.",
+                                      "and bright is used as surface level; see `iso`.",
                                       out.iso));
   }
   if (!(out.iso > double{out.low} && out.iso <= double{out.high}))
     return error(
         fmt::format("the surface level {:.4g} is outside the range of values, {:.4g} to {:.4g}, so "
-                    "there is no bone; choose another level with --iso",
+                    "there is no bone; choose another level with `iso`",
                     out.iso, out.low, out.high));
   return fine();
 }
@@ -298,7 +298,7 @@ void set_smooth(const io::Scan& scan, const scenario::BoneRecipe& recipe, Import
   out.smooth = noise < 0.003 * step ? 0.0 : std::min(noise, 0.1 * step);
   if (out.smooth > 0)
     out.notices.push_back(
-        fmt::format("Noise of {:.3g} {} is smoothed out along the surface; see --smooth.",
+        fmt::format("Noise of {:.3g} {} is smoothed out along the surface; see `smooth`.",
                     out.smooth, scan.hounsfield ? "HU" : "(the file's unit)"));
 }
 
@@ -307,7 +307,7 @@ Status plan_grey(const io::Scan& scan, const scenario::BoneRecipe& recipe,
   ImportSummary& out = plan.summary;
   if (!recipe.labels.empty())
     out.notices.emplace_back(
-        "--tissues is a table of labels, but this scan has grey values; the table was ignored.");
+        "`labels` is a table of labels, but this scan has grey values; the table was ignored.");
   set_range(scan, out);
   if (Status status = set_iso(scan, recipe, out); !status) return status;
   say_notes(scan, out, [&scan, iso = static_cast<float>(out.iso)](std::size_t voxel) {

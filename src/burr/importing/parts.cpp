@@ -197,12 +197,12 @@ Status keep_at(const Parts& parts, const std::vector<Vec3>& points, const Place&
         place.origin_mm + place.axes * near.voxel.cast<double>().cwiseProduct(place.voxel_mm);
     if (near.mm > kNearMm)
       return error(Trouble::usage,
-                   fmt::format("--keep at {}: there is no bone at this point; the nearest part is "
+                   fmt::format("`keep` at {}: there is no bone at this point; the nearest part is "
                                "{:.3g} mm away, at {}; give a point in the part to keep",
                                point_text(mm), near.mm, point_text(there)));
     out.kept[near.part] = true;
     out.notices.push_back(
-        fmt::format("There is no bone at {} mm: the part {:.2g} mm away is kept (--keep).",
+        fmt::format("There is no bone at {} mm: the part {:.2g} mm away is kept (`keep`).",
                     point_text(mm), near.mm));
   }
   return fine();
@@ -278,7 +278,7 @@ Result<ChosenParts> choose_parts(const Parts& parts, const scenario::BoneRecipe&
   const auto wanted = static_cast<std::size_t>(std::max(recipe.keep.largest, 0));
   for (std::size_t n = 0; n < std::min(wanted, count); ++n) out.kept[n] = true;
   if (wanted > count)
-    out.notices.push_back(fmt::format("The bone has only {} part{}, so --keep {} keeps {}.", count,
+    out.notices.push_back(fmt::format("The bone has only {} part{}, so `keep` {} keeps {}.", count,
                                       count == 1 ? "" : "s", wanted,
                                       count == 1 ? "it" : "them all"));
   if (Status status = keep_at(parts, recipe.keep.at_mm, place, out); !status) return status.error();
@@ -295,16 +295,16 @@ Result<ChosenParts> choose_parts(const Parts& parts, const scenario::BoneRecipe&
   }
   if (found.removed == count)
     return error(Trouble::usage,
-                 fmt::format("--drop-islands-mm3 {:g} leaves nothing: the largest part that was to "
+                 fmt::format("`drop_islands_mm3` {:g} leaves nothing: the largest part that was to "
                              "be kept is smaller; the largest of all has {} mm3; give less",
                              recipe.drop_islands_mm3, mm3_text(found.largest_mm3)));
   if (found.removed == 0) return out;
   found.largest_removed_mm3 = mm3(largest);
   const Vec3 where = place.origin_mm +
                      place.axes * parts.first[largest].cast<double>().cwiseProduct(place.voxel_mm);
-  const char* option = recipe.keep.all()             ? "--drop-islands-mm3"
-                       : recipe.drop_islands_mm3 > 0 ? "--keep and --drop-islands-mm3"
-                                                     : "--keep";
+  const char* option = recipe.keep.all()             ? "`drop_islands_mm3`"
+                       : recipe.drop_islands_mm3 > 0 ? "`keep` and `drop_islands_mm3`"
+                                                     : "`keep`";
   out.notices.push_back(
       found.removed == 1
           ? fmt::format("One of {} separate parts was removed ({}): {} mm3, at {} mm.", count,

@@ -140,7 +140,7 @@ bool understand(const io::Label& label, std::vector<std::string>& notices) {
   if (name.known && code.known && name.kind != code.kind)
     notices.push_back(
         fmt::format("Label {} is named {}, but its code says {}: burr goes by the name; use "
-                    "--tissues if that is wrong.",
+                    "`labels` if that is wrong.",
                     label.value, base::printable(label.name), base::printable(label.meaning)));
   return name.known || code.known;
 }
@@ -187,7 +187,7 @@ std::string not_understood(const std::vector<std::string>& labels) {
     list += (n == 0 ? "" : ", ") + labels[n];
   if (labels.size() > kShown) list += fmt::format(" and {} more", labels.size() - kShown);
   return fmt::format(
-      "burr does not understand the {} {} and treats {} as solid bone; use --tissues to mark what "
+      "burr does not understand the {} {} and treats {} as solid bone; use `labels` to mark what "
       "is soft, air or to be spared.",
       labels.size() == 1 ? "name of label" : "names of labels", list,
       labels.size() == 1 ? "it" : "them");
@@ -268,7 +268,7 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
       return status.error();
   } else if (unnamed > 0 && different > 1) {
     out.notices.push_back(
-        fmt::format("{} of {} labels have no name and are treated as solid; use --tissues to mark "
+        fmt::format("{} of {} labels have no name and are treated as solid; use `labels` to mark "
                     "those that are not.",
                     unnamed, different));
   }

@@ -51,8 +51,8 @@ Status check_export(const std::string& path, const ExportOptions& options) {
     return error(
         Trouble::usage,
         path +
-            ": --largest is for meshes (.stl .ply .obj .3mf .glb); for a volume of a scan, "
-            "use --keep largest");
+            ": `largest` is for meshes (.stl .ply .obj .3mf .glb); for a volume of a scan, "
+            "use `keep` largest");
   return fine();
 }
 
@@ -70,7 +70,7 @@ Result<Exported> export_part(const volume::Bone& before, const volume::Bone& now
   if (options.part != Part::bone) {
     progress.report(0, "comparing before and after");
     if (added && volume::removed_volume(with, without) <= 0)
-      return error("nothing was added to this bone; export --part bone instead");
+      return error("nothing was added to this bone; export `part` bone instead");
     auto made = volume::removed_part(with, without);
     // on the bone's own grid nothing may be left of a thin layer
     if (!made && is_mesh_path(path)) made = volume::removed_part(with, without, 2);

@@ -50,7 +50,7 @@ bool is_uuid(const std::string& text) {
 }
 
 Error refuses(const char* what, const net::Answer& answer) {
-  return error(Trouble::io, fmt::format("--cmi5: {}: the learning management system answers {}: {}",
+  return error(Trouble::io, fmt::format("cmi5: {}: the learning management system answers {}: {}",
                                         what, answer.status, base::printable(answer.body, 200)));
 }
 
@@ -180,14 +180,14 @@ struct Launch::Parts {
               ? read["error-text"].get<std::string>()
               : std::to_string(answer->status);
       return error(Trouble::io,
-                   fmt::format("--cmi5: the learning management system gives no token ({}); start "
+                   fmt::format("cmi5: the learning management system gives no token ({}); start "
                                "the unit there again",
                                base::printable(why, 200)));
     }
     std::string& token = post.token = read["auth-token"];
     if (std::any_of(token.begin(), token.end(),
                     [](char c) { return static_cast<unsigned char>(c) <= 0x20 || c == 0x7f; }))
-      return error(Trouble::io, "--cmi5: the token cannot be used");
+      return error(Trouble::io, "cmi5: the token cannot be used");
     return fine();
   }
 
@@ -204,10 +204,10 @@ struct Launch::Parts {
     if (const auto found = read.find("contextTemplate"); found != read.end() && found->is_object())
       context = *found;
     else
-      return error(Trouble::data, "--cmi5: LMS.LaunchData has no contextTemplate");
+      return error(Trouble::data, "cmi5: LMS.LaunchData has no contextTemplate");
     const Json::json_pointer session(Json::json_pointer("/extensions") / std::string(kSession));
     if (!context.contains(session) || !context[session].is_string())
-      return error(Trouble::data, "--cmi5: LMS.LaunchData has no session id");
+      return error(Trouble::data, "cmi5: LMS.LaunchData has no session id");
     normal = read.value("launchMode", Json("Normal")) == "Normal";
     // cmi5 asks for it; burr's language is set in burr
     const auto preferences =
@@ -229,7 +229,7 @@ Result<std::unique_ptr<Launch>> Launch::begin(const std::string& url, double wai
     if (query[name].empty())
       return error(
           Trouble::usage,
-          fmt::format("--cmi5: {} is missing in the address; copy it whole, in quotes", name));
+          fmt::format("cmi5: {} is missing in the address; copy it whole, in quotes", name));
   std::string& endpoint = parts->post.endpoint = query["endpoint"];
   while (!endpoint.empty() && endpoint.back() == '/') endpoint.pop_back();
   parts->registration = query["registration"];
@@ -237,12 +237,11 @@ Result<std::unique_ptr<Launch>> Launch::begin(const std::string& url, double wai
   parts->actor = Json::parse(query["actor"], nullptr, false);
   parts->post.wait_s = wait_s;
   if (!parts->actor.is_object() || !parts->actor.contains("account"))
-    return error(Trouble::usage, "--cmi5: actor is no account of a learner");
-  if (!is_uuid(parts->registration))
-    return error(Trouble::usage, "--cmi5: registration is no UUID");
+    return error(Trouble::usage, "cmi5: actor is no account of a learner");
+  if (!is_uuid(parts->registration)) return error(Trouble::usage, "cmi5: registration is no UUID");
   for (const std::string& one : {endpoint, query["fetch"]})
     if (const auto good = net::parse_url(one); !good)
-      return error(Trouble::usage, "--cmi5: " + good.error().text);
+      return error(Trouble::usage, "cmi5: " + good.error().text);
   if (const Status done = parts->fetch(query["fetch"]); !done) return done.error();
   if (const Status done = parts->read_launch_data(); !done) return done.error();
   const Status begun =
@@ -270,7 +269,7 @@ Result<std::string> Launch::end(double seconds, bool finished, const fs::path& w
       const Status kept = keep(wait_in, parts_->post, all);
       if (!kept) return error(Trouble::io, heard.status.error().text + "; " + kept.error().text);
       return heard.status.error().text +
-             ". burr tells it later, at its next start with --cmi5 or by `burr learner take-in`";
+             ". burr tells it later, at its next start by cmi5 or by `lrs::tell_waiting`";
     }
     if (!heard.status && refused) refused = heard.status;
     all.erase(0);

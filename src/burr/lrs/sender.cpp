@@ -263,7 +263,7 @@ Result<Sent> send_due(Store& store, const Lrs& lrs, const Ways& ways) {
   const auto now = school::outbox_status(store);
   if (!now) return now.error();
   if (now->home_page.empty())
-    return error(Trouble::usage, "no statements are made; `burr learner xapi on` begins");
+    return error(Trouble::usage, "no statements are made; `school::set_home_page` begins");
   if (!ways.all && now->not_before_ms > school::now_ms()) return Sent{0, 0, now->trouble};
   return Pass(store, lrs, ways).run();
 }

@@ -79,7 +79,8 @@ std::optional<Response> refused(const Request& request, const Guard& guard) {
   const std::string bearer = "Bearer ", given = request.field("authorization");
   if (request.path == kStationPath) {
     if (guard.station_token.empty())
-      return refusal(404, "this server takes no stations; start it with --live");
+      return refusal(404,
+                     "this server takes no stations; start it with `net::Guard::station_token`");
     if (!given.starts_with(bearer) || !same(given.substr(bearer.size()), guard.station_token))
       return refusal(401, "the token of the stations is missing or wrong");
     if (request.method != "POST") return refusal(405, "a station posts");

@@ -184,7 +184,7 @@ class Server final : public HttpServer {
     const auto address = asio::ip::make_address(door.address, trouble);
     if (trouble)
       return error(Trouble::usage,
-                   fmt::format("--listen: \"{}\" is not an IP address", door.address));
+                   fmt::format("`address`: \"{}\" is not an IP address", door.address));
     if (!door.certificate.empty())
       if (const Status done = with_tls(door); !done) return done;
     const Tcp::endpoint place(address, door.port);
@@ -194,7 +194,7 @@ class Server final : public HttpServer {
     if (!trouble) acceptor_.listen(Tcp::acceptor::max_listen_connections, trouble);
     if (trouble)
       return error(Trouble::io,
-                   fmt::format("{} port {}: {}; choose another with --listen and --port",
+                   fmt::format("{} port {}: {}; choose another with `address` and `port`",
                                door.address, door.port, trouble.message()));
     return fine();
   }
@@ -271,7 +271,7 @@ class Server final : public HttpServer {
 
 Result<std::unique_ptr<HttpServer>> HttpServer::open(const Door& door, Answering answer) {
   if (door.certificate.empty() != door.key.empty())
-    return error(Trouble::usage, "--certificate and --key belong together; give both");
+    return error(Trouble::usage, "`certificate` and `key` belong together; give both");
   auto server = std::make_unique<Server>(std::move(answer), door.wait_s);
   if (const Status done = server->listen(door); !done) return done.error();
   return std::unique_ptr<HttpServer>(std::move(server));

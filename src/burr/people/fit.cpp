@@ -147,11 +147,11 @@ Fit fit(std::span<const Tally> tallies, const FitSettings& settings) {
     out.why = "no threshold found: the answers do not differ clearly from guessing";
   else if (!(out.high <= settings.largest))
     out.why =
-        "no threshold found: it may be above the largest difference presented; raise --largest or "
+        "no threshold found: it may be above the largest difference presented; raise `largest` or "
         "run more trials";
   else if (!(out.low >= settings.smallest))
     out.why =
-        "no threshold found: it may be below the smallest difference presented; lower --smallest "
+        "no threshold found: it may be below the smallest difference presented; lower `smallest` "
         "or run more trials";
   else
     out.found = true;

@@ -87,7 +87,7 @@ std::vector<std::uint8_t> bone_to_blob(const volume::Bone& bone) {
 Result<std::unique_ptr<volume::Bone>> bone_from_blob(ByteSpan blob, std::size_t reserve_bricks,
                                                      const std::string& where) {
   const Error damaged =
-      error(where + ": the bone inside the recording is damaged; give the scan with --volume");
+      error(where + ": the bone inside the recording is damaged; give the scan with `volume`");
   BytesIn in(blob);
   Head head;
   if (!read_head(in, head)) return damaged;

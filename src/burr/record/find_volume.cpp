@@ -147,12 +147,12 @@ Result<std::string> find_volume(const VolumeInfo& wanted, const VolumeHints& hin
   if (!hints.given.empty()) {
     if (fs::exists(hints.given, problem)) return hints.given;
     return error(Trouble::io,
-                 hints.given + ": this file or folder does not exist; correct --volume");
+                 hints.given + ": this file or folder does not exist; correct `volume`");
   }
   const Error lost = error(
       Trouble::io,
       fmt::format("the bone of this recording ({}) was not found; put its scan beside the "
-                  "recording, give the scan with --volume, or give its folder in BURR_VOLUME_PATH",
+                  "recording, give the scan with `volume`, or give its folder in BURR_VOLUME_PATH",
                   described(wanted)));
   if (wanted.source_fingerprint == 0) return lost;
   const auto is_it = [&wanted](const std::string& path) {

@@ -181,7 +181,7 @@ void Player::find_holes() {
   };
   for (const Hole& one : holes_)
     notice(
-        fmt::format("{}: is damaged from {:.3f} s to {:.3f} s: {} ticks are lost; `burr repair` "
+        fmt::format("{}: is damaged from {:.3f} s to {:.3f} s: {} ticks are lost; `record::repair` "
                     "keeps the rest",
                     path_, seconds(one.first), seconds(one.end), one.end - one.first));
 }

@@ -154,7 +154,7 @@ Status Player::show(volume::Bone& bone) {
   for (const auto& [brick, content] : state_) {
     if (brick < 0 || brick >= bone.brick_count())
       return error(fmt::format(
-          "{}: changes brick {}, which this bone does not have; give the right bone with --volume",
+          "{}: changes brick {}, which this bone does not have; give the right bone with `volume`",
           path_, brick));
     if (!write(brick, content, original(brick)))
       return error(fmt::format(
@@ -171,7 +171,7 @@ Status Player::bone_at(double t_s, volume::Bone& bone) {
   if (bone.grid().size != info_.volume.grid.size)
     return error(fmt::format(
         "{}: the bone of the recording has {} x {} x {} voxels, but this one has {} x {} x {}; "
-        "give the right bone with --volume",
+        "give the right bone with `volume`",
         path_, info_.volume.grid.size.x(), info_.volume.grid.size.y(), info_.volume.grid.size.z(),
         bone.grid().size.x(), bone.grid().size.y(), bone.grid().size.z()));
   const std::uint64_t tick = tick_of(t_s);
@@ -202,7 +202,7 @@ Result<std::unique_ptr<volume::Bone>> Player::embedded_bone(std::size_t reserve_
     if (!blob) return blob.error();
     return bone_from_blob(*blob, reserve_bricks, path_);
   }
-  return error(path_ + ": holds no bone; give the scan of the bone with --volume");
+  return error(path_ + ": holds no bone; give the scan of the bone with `volume`");
 }
 
 }  // namespace burr::record

@@ -196,9 +196,10 @@ Status check_identity(const SessionInfo& info) {
     if (Status good = check_pseudonym(info.identity->learner); !good.ok()) return good;
   for (const std::string& name : info.identity->accepted_labels)
     if (!fit_for_a_note(name))
-      return error(Trouble::usage,
-                   "--accept-label: this name is too long or looks like a path, which must not be "
-                   "recorded; give the name of a structure of the case");
+      return error(
+          Trouble::usage,
+          "`accepted_labels`: this name is too long or looks like a path, which must not be "
+          "recorded; give the name of a structure of the case");
   const std::uint64_t hash = info.work_case ? info.work_case->text_hash : 0;
   if (info.identity->case_hash != hash)
     return error(Trouble::internal, "recording: the case's hash is not that of its text");

@@ -52,7 +52,7 @@ Result<sim::PieceOrder> piece_order(const std::string& text) {
   }
   if (count < 2 || !rest.empty())
     return error(Trouble::usage,
-                 fmt::format("--move-piece {}: give X,Y,Z:DX,DY,DZ, or with a turn "
+                 fmt::format("{}: no move of a piece; give X,Y,Z:DX,DY,DZ, or with a turn "
                              "X,Y,Z:DX,DY,DZ:AX,AY,AZ (mm, mm, degrees), for example 10,0,5:0,0,5",
                              text));
   return sim::PieceOrder{parts[0] * 1e-3, parts[1] * 1e-3, parts[2] * kDegree};

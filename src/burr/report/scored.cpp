@@ -17,7 +17,7 @@ namespace {
 Result<scenario::Case> case_of(const record::Player& player, const std::string& rubric) {
   if (player.info().work_case) return record::case_of(player.info());
   if (rubric.empty())
-    return error(Trouble::usage, "the recording names no case; name a rubric with --rubric");
+    return error(Trouble::usage, "the recording names no case; name one as `rubric`");
   const auto read = scoring::read_rubric(rubric);
   if (!read) return read.error();
   return scenario::read_case(read->case_source);

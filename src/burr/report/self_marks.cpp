@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
@@ -49,9 +51,13 @@ Result<SelfMarks> parse_self_marks(std::string_view text, std::string_view file,
   SelfMarks out;
   for (const auto& [key, node] : *marks) {
     const std::string id(key.str());
-    if (rubric.item(id) == nullptr)
-      return wrong(node, id,
-                   fmt::format("{} has no such item; burr score names them", rubric.file));
+    if (rubric.item(id) == nullptr) {
+      std::vector<std::string> items;
+      for (const scoring::Item& item : rubric.items) items.push_back(item.id);
+      return wrong(
+          node, id,
+          fmt::format("{} has no such item; use one of {}", rubric.file, base::list_of(items)));
+    }
     const auto word = node.value_exact<std::string>();
     const auto mark = word ? self_mark_of(*word) : std::nullopt;
     if (!mark) return wrong(node, id, R"(must be "met", "unmet" or "unknown")");

@@ -24,7 +24,7 @@ bool lock_memory(std::string& why) {
   rlimit limit = {};
   getrlimit(RLIMIT_MEMLOCK, &limit);
   if (geteuid() != 0 && limit.rlim_cur != RLIM_INFINITY) {
-    why = "the limit on locked memory is not `unlimited`";
+    why = "the limit on locked memory is not \"unlimited\"";
     return false;
   }
   if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) return true;

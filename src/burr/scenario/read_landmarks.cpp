@@ -61,7 +61,7 @@ void read_tube(Reader& reader, Shape& out) {
   read_length(reader, "radius_mm", out.radius);
   reader.number("from", out.from, -1e-9, 1);
   reader.number("to", out.to, 0, 1);
-  if (out.from >= out.to) reader.fail("from", "must be below `to`; both are parts of the length");
+  if (out.from >= out.to) reader.fail("from", "must be below \"to\"; both are parts of the length");
 }
 
 void read_shape(Reader& reader, Shape& out) {

@@ -249,12 +249,13 @@ Result<Region> parse_region(std::string_view text) {
   std::vector<double> box;
   if (!numbers(text, box) || box.size() != 6)
     return error(Trouble::usage,
-                 fmt::format("--roi: \"{}\" is not six whole numbers, as in 10,200,0,99,5,80",
+                 fmt::format("`region`: \"{}\" is not six whole numbers, as in 10,200,0,99,5,80",
                              base::printable(text)));
   std::array<int, 6> voxel{};
   for (std::size_t n = 0; n < 6; ++n) {
     if (!(box[n] >= 0 && box[n] < kMostVoxels))
-      return error(Trouble::usage, "--roi: voxels are counted from 0; give numbers of 0 or more");
+      return error(Trouble::usage,
+                   "`region`: voxels are counted from 0; give numbers of 0 or more");
     voxel[n] = static_cast<int>(box[n]);
   }
   return Region{{voxel[0], voxel[1]}, {voxel[2], voxel[3]}, {voxel[4], voxel[5]}};
@@ -264,7 +265,7 @@ Result<double> parse_level(std::string_view text) {
   std::vector<double> level;
   if (!numbers(text, level) || level.size() != 1)
     return error(Trouble::usage,
-                 fmt::format("--iso: \"{}\" is not a number", base::printable(text)));
+                 fmt::format("`iso`: \"{}\" is not a number", base::printable(text)));
   return level[0];
 }
 
@@ -274,7 +275,7 @@ Result<math::Vec3> parse_spacing(std::string_view text) {
   for (std::size_t a = 0; good && a < 3; ++a) good = mm[a] > 0 && mm[a] <= 100;
   if (!good)
     return error(Trouble::usage,
-                 fmt::format("--spacing-mm: \"{}\" is not three numbers above 0, as in 0.3,0.3,0.6",
+                 fmt::format("`spacing_mm`: \"{}\" is not three numbers above 0, as in 0.3,0.3,0.6",
                              base::printable(text)));
   return math::Vec3(mm[0], mm[1], mm[2]);
 }
@@ -282,7 +283,7 @@ Result<math::Vec3> parse_spacing(std::string_view text) {
 Result<Keep> parse_keep(std::string_view text) {
   const auto wrong = [text] {
     return error(Trouble::usage,
-                 fmt::format("--keep: \"{}\" is not known; use largest, a number of parts as in 3, "
+                 fmt::format("`keep`: \"{}\" is not known; use largest, a number of parts as in 3, "
                              "or points in mm as in \"at 10,-20,30; 1,2,3\"",
                              base::printable(text)));
   };
@@ -296,7 +297,7 @@ Result<Keep> parse_keep(std::string_view text) {
   if (numbers(rest, count) && count.size() == 1) {
     if (!(count[0] >= 1 && count[0] <= kMostParts && count[0] == std::floor(count[0])))
       return error(Trouble::usage,
-                   fmt::format("--keep: {} is not a number of parts; use 1 or more", count[0]));
+                   fmt::format("`keep`: {} is not a number of parts; use 1 or more", count[0]));
     return Keep{static_cast<int>(count[0]), {}};
   }
   rest = words;

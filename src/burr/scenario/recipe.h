@@ -97,7 +97,7 @@ inline constexpr const char* kOwn = "own";
 // The Error names the field. where: the file, for its sentence.
 [[nodiscard]] Result<BoneRecipe> recipe_from_json(std::string_view text, const std::string& where);
 
-// What a person types: "10,200,0,99,5,80", "1300", "0.3,0.3,0.6". The Error names the option.
+// What a person types: "10,200,0,99,5,80", "1300", "0.3,0.3,0.6". The Error names the field.
 [[nodiscard]] Result<Region> parse_region(std::string_view text);
 [[nodiscard]] Result<double> parse_level(std::string_view text);
 [[nodiscard]] Result<math::Vec3> parse_spacing(std::string_view text);

@@ -108,8 +108,9 @@ Status check(Store& store, const Decision& one) {
   const auto known = has(store, one.learner);
   if (!known) return known.error();
   if (!*known)
-    return error(Trouble::usage, fmt::format("{}: there is no such learner; `burr learner list`",
-                                             base::printable(one.learner)));
+    return error(Trouble::usage,
+                 fmt::format("{}: there is no such learner; `school::learners` lists them",
+                             base::printable(one.learner)));
   return fine();
 }
 
@@ -155,9 +156,10 @@ Result<Standard> standard_in(Store& store, const std::string& id) {
   const auto all = standards(store);
   if (!all) return all.error();
   if (all->empty())
-    return error(Trouble::usage,
-                 "this centre has set no standard, so nothing can be decided; see `burr study "
-                 "standard --help`");
+    return error(
+        Trouble::usage,
+        "this centre has set no standard, so nothing can be decided; `school::set_standard` "
+        "sets one");
   const Standard* found = nullptr;
   for (const Standard& one : *all) {
     if (one.id == id) return one;
@@ -168,9 +170,9 @@ Result<Standard> standard_in(Store& store, const std::string& id) {
     found = &one;
   }
   if (found == nullptr)
-    return error(Trouble::usage, fmt::format("{}: there is no such standard; `burr study "
-                                             "standards --store S` lists them",
-                                             base::printable(id)));
+    return error(Trouble::usage,
+                 fmt::format("{}: there is no such standard; `school::standards` lists them",
+                             base::printable(id)));
   return *found;
 }
 

@@ -204,8 +204,9 @@ Result<std::vector<TextFile>> tables_of(Store& store, const std::string& learner
   const auto known = has(store, learner);
   if (!known) return known.error();
   if (!*known)
-    return error(Trouble::usage, fmt::format("{}: there is no such learner; `burr learner list`",
-                                             base::printable(learner)));
+    return error(Trouble::usage,
+                 fmt::format("{}: there is no such learner; `school::learners` lists them",
+                             base::printable(learner)));
   std::vector<TextFile> files;
   Json json;
   for (const TableOf& table : kOf) {

@@ -208,8 +208,9 @@ Result<Forgotten> forget(Store& store, const std::string& learner, const Recordi
   const auto named = delete_name(store, learner);
   if (!named) return named.error();
   if (!*known && !*named)
-    return error(Trouble::usage, fmt::format("{}: there is no such learner; `burr learner list`",
-                                             base::printable(learner)));
+    return error(Trouble::usage,
+                 fmt::format("{}: there is no such learner; `school::learners` lists them",
+                             base::printable(learner)));
   Forgotten done;
   {
     auto change = Transaction::begin(store.database());
@@ -233,7 +234,7 @@ Result<Forgotten> forget(Store& store, const std::string& learner, const Recordi
   if (const Status clean = scrub(store); !clean)
     done.notices.push_back(fmt::format(
         "the rows are deleted, but their bytes may still be in the files of the store ({}); close "
-        "burr elsewhere and run `burr learner forget --scrub`",
+        "burr elsewhere and run `school::scrub`",
         clean.error().text));
   return done;
 }

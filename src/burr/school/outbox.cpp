@@ -82,7 +82,7 @@ Status set_home_page(Store& store, const std::string& iri) {
   if (!iri.empty() && !is_iri(iri))
     return error(
         Trouble::usage,
-        fmt::format("--home-page {}: use the centre's address, such as https://centre.example",
+        fmt::format("`home_page` {}: use the centre's address, such as https://centre.example",
                     base::printable(iri, 200)));
   auto change = Transaction::begin(store.database());
   if (!change) return change.error();

@@ -111,7 +111,7 @@ Result<RubricRow> rubric_in(Store& store, const std::string& given) {
   if (given.empty() && names.size() > 1)
     return error(
         Trouble::usage,
-        fmt::format("the store has scores by several rubrics; choose one with --rubric: {}",
+        fmt::format("the store has scores by several rubrics; choose one with `rubric`: {}",
                     base::list_of(names)));
   return *found;
 }

@@ -102,10 +102,9 @@ Result<Entered> enter(Store& store, const SessionRecord& record) {
   const auto known = has(store, record.learner);
   if (!known) return known.error();
   if (!*known)
-    return error(
-        Trouble::usage,
-        fmt::format("{}: there is no such learner in the store; `burr learner add --id {}`",
-                    base::printable(record.learner), base::printable(record.learner)));
+    return error(Trouble::usage,
+                 fmt::format("{}: there is no such learner in the store; `school::add` enters one",
+                             base::printable(record.learner)));
   if (const Status done = define(to, record); !done) return done.error();
   Entered entered;
   const auto fresh = insert_session(to, record, id);

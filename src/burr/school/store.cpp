@@ -117,7 +117,7 @@ Result<StorePlace> place_of(const std::string& given, const DeskPlaces& places) 
   if (place.address.empty() && !places.data.empty())
     place.address = (places.data / "school.sqlite").string();
   if (place.address.empty())
-    return error(Trouble::usage, "no folder for the store of learners; name a file with --store");
+    return error(Trouble::usage, "no folder for the store of learners; name a file as `store`");
   if (!is_server(place.address)) {
     // one name for one store: what waits says by it where it belongs
     std::error_code trouble;
@@ -170,10 +170,10 @@ Status Store::look_again() {
   const auto late = overdue(*this, now_ms());
   if (!late) return late.error();
   if (!late->empty())
-    notices_.push_back(fmt::format(
-        "the time to keep is over for {}; `burr learner forget --overdue` deletes them, with all "
-        "their sessions and recordings",
-        base::list_of(*late)));
+    notices_.push_back(
+        fmt::format("the time to keep is over for {}; `school::forget` deletes them, with all "
+                    "their sessions and recordings",
+                    base::list_of(*late)));
   return fine();
 }
 
@@ -204,7 +204,7 @@ Result<std::string> new_pseudonym(Store& store) {
     if (!taken) return taken.error();
     if (!*taken) return id;
   }
-  return error(Trouble::failed, "no free pseudonym was found; give one with --id");
+  return error(Trouble::failed, "no free pseudonym was found; give one as `id`");
 }
 
 Status add(Store& store, const Learner& learner, const Person& person) {
@@ -280,8 +280,9 @@ Status add_to_cohort(Store& store, const std::string& title,
     const auto there = has(store, learner);
     if (!there) return there.error();
     if (!*there)
-      return error(Trouble::usage, fmt::format("{}: there is no such learner; `burr learner list`",
-                                               base::printable(learner)));
+      return error(Trouble::usage,
+                   fmt::format("{}: there is no such learner; `school::learners` lists them",
+                               base::printable(learner)));
     const auto added = store.database().run(
         "INSERT INTO cohort_member (cohort_id, learner_id) VALUES ($1, $2) ON CONFLICT DO NOTHING",
         {*id, learner});
@@ -299,9 +300,9 @@ Status remove_from_cohort(Store& store, const std::string& title,
   const auto id = cohort_id(store, title);
   if (!id) return id.error();
   if (id->empty())
-    return error(Trouble::usage, fmt::format("{}: there is no such cohort; `burr learner cohort "
-                                             "list`",
-                                             base::printable(title)));
+    return error(Trouble::usage,
+                 fmt::format("{}: there is no such cohort; `school::cohorts` lists them",
+                             base::printable(title)));
   for (const std::string& learner : learners) {
     const auto gone = store.database().run(
         "DELETE FROM cohort_member WHERE cohort_id = $1 AND learner_id = $2", {*id, learner});

@@ -80,7 +80,7 @@ void read_grade(Reader& reader, Item& out) {
   if (!out.grade) return;
   if (!may_be_graded(*out.how)) {
     reader.fail("grade", fmt::format("\"{}\" is decided by two numbers, so it cannot be graded; "
-                                     "leave `grade` out",
+                                     "leave \"grade\" out",
                                      out.how->name));
   } else if (out.grade->first == out.grade->second) {
     reader.fail("grade",
@@ -146,7 +146,7 @@ void check_needs(Reader& reader, const Rubric& rubric) {
                                    list_of(rubric.items, [](const Item& i) { return i.id; })));
       } else if (!way.insert(next->id).second) {
         reader.fail_at(at->lines.at("requires"), "requires",
-                       fmt::format("\"{}\" leads back to itself; take one `requires` out of the "
+                       fmt::format("\"{}\" leads back to itself; take one \"requires\" out of the "
                                    "circle",
                                    base::printable(next->id)));
         next = nullptr;

@@ -159,7 +159,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
       if (brick.brick < 0 || brick.brick >= bone->brick_count())
         return error(
             fmt::format("{}: changes brick {}, which this bone does not have; give the right bone "
-                        "with --volume",
+                        "with `volume`",
                         player.path(), brick.brick));
       const volume::Field* field = bone->brick_field(brick.brick);
       ++outcome.bricks;

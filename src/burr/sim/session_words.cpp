@@ -103,19 +103,19 @@ Status check_law(const record::SessionInfo& info, const tick::OwnLaw* given,
     if (given == nullptr) return fine();
     return error(Trouble::usage,
                  was.kind.empty()
-                     ? fmt::format("{}: was made without a custom law; leave out --law", where)
+                     ? fmt::format("{}: was made without a custom law; leave out `law`", where)
                      : fmt::format("{}: its law was a function of Python, whose answers are in the "
-                                   "recording; leave out --law",
+                                   "recording; leave out `law`",
                                    where));
   }
   if (given == nullptr)
     return error(Trouble::usage,
-                 fmt::format("{}: was made with the law {} (SHA-256 {}); give that file with --law",
+                 fmt::format("{}: was made with the law {} (SHA-256 {}); give that file with `law`",
                              where, name, base::printable(was.sha256, kHashDigits)));
   if (is.sha256 != was.sha256)
     return error(
         Trouble::usage,
-        fmt::format("{}: was made with another law: the SHA-256 of {} was {}, that of --law "
+        fmt::format("{}: was made with another law: the SHA-256 of {} was {}, that of `law` "
                     "{} is {}; give the file that it was made with",
                     where, name, base::printable(was.sha256, kHashDigits), base::printable(is.name),
                     is.sha256));
@@ -123,9 +123,9 @@ Status check_law(const record::SessionInfo& info, const tick::OwnLaw* given,
     return error(
         Trouble::usage,
         was.settings_sha256.empty()
-            ? fmt::format("{}: its law {} had no settings; leave out --law-settings", where, name)
+            ? fmt::format("{}: its law {} had no settings; leave out `law_settings`", where, name)
             : fmt::format("{}: its law {} had other settings (SHA-256 {}); give their file with "
-                          "--law-settings",
+                          "`law_settings`",
                           where, name, base::printable(was.settings_sha256, kHashDigits)));
   return fine();
 }

@@ -98,19 +98,19 @@ Status Wall::check_device(const device::DeviceSpec& spec, const WallProperties& 
     return error(
         Trouble::usage,
         fmt::format(
-            "{} can render at most {:g} N/m, but this needs {:g}; lower --standard or --largest",
+            "{} can render at most {:g} N/m, but this needs {:g}; lower `standard` or `largest`",
             spec.name, spec.max_stiffness, shown.stiffness));
   if (shown.friction > 4)
     return error(
         Trouble::usage,
         fmt::format(
-            "a coefficient of friction of {:g} is more than 4; lower --standard or --largest",
+            "a coefficient of friction of {:g} is more than 4; lower `standard` or `largest`",
             shown.friction));
   if (shown.vibration > kMostVibration * (1 + 1e-9))
     return error(
         Trouble::usage,
         fmt::format(
-            "a vibration of {:g} N is more than the limit of {:g} N; lower --standard or --largest",
+            "a vibration of {:g} N is more than the limit of {:g} N; lower `standard` or `largest`",
             shown.vibration, kMostVibration));
   return fine();
 }

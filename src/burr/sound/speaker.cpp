@@ -27,11 +27,8 @@ void quieten_alsa() {
 
 Result<std::unique_ptr<Speaker>> Speaker::open(const SpeakerSettings& settings) {
   const auto none = [](const char* why) {
-    return error(
-        Trouble::io,
-        fmt::format(
-            "no sound: {}; check the system's sound settings, or switch sound off with --no-sound",
-            *why != '\0' ? why : "no sound device was found"));
+    return error(Trouble::io, fmt::format("no sound: {}; check the system's sound settings",
+                                          *why != '\0' ? why : "no sound device was found"));
   };
   SDL_SetMainReady();
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C is handled by the program

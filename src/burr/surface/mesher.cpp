@@ -417,8 +417,8 @@ Result<Mesh> whole_surface(const volume::Bone& bone, int threads, Progress& prog
     triangles += piece->mesh.triangles.size();
     if (vertices > 0xFFFFFFFFULL)
       return error(
-          "the surface has more than 4 billion vertices; use a larger --voxel-mm or a smaller "
-          "--roi");
+          "the surface has more than 4 billion vertices; use a larger `voxel_mm` or a smaller "
+          "`region`");
   }
   Mesh mesh;
   mesh.vertices.resize(vertices);

@@ -87,7 +87,7 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
     if (!(into->norm() > 1e-9))
       return error(
           Trouble::usage,
-          "--into 0,0,0 is not a direction; give the direction into the bone, for example 0,0,-1");
+          "`into` 0,0,0 is not a direction; give the direction into the bone, for example 0,0,-1");
     place.into = into->normalized();
   }
 
@@ -102,7 +102,7 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
       return error(
           Trouble::usage,
           fmt::format(
-              "there is no bone on the line through --at {:.1f},{:.1f},{:.1f} mm; give a point in "
+              "there is no bone on the line through `at` {:.1f},{:.1f},{:.1f} mm; give a point in "
               "the bone (the volume reaches from {:.1f},{:.1f},{:.1f} to {:.1f},{:.1f},{:.1f} mm)",
               1e3 * at->x(), 1e3 * at->y(), 1e3 * at->z(), 1e3 * world.lo.x(), 1e3 * world.lo.y(),
               1e3 * world.lo.z(), 1e3 * world.hi.x(), 1e3 * world.hi.y(), 1e3 * world.hi.z()));
@@ -119,7 +119,7 @@ Result<WorkPlace> find_work_place(const Bone& bone, double burr_radius,
       }
     if (!hit)
       return error(
-          "the volume holds no solid bone; check --iso, or the table of labels "
+          "the volume holds no solid bone; check `iso`, or the table of labels "
           "(docs/use/labels.md)");
   }
   place.at = *hit;
@@ -137,11 +137,11 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
                         double seconds) {
   const std::vector<std::string> names = motion_names();
   if (std::find(names.begin(), names.end(), name) == names.end())
-    return error(Trouble::usage, fmt::format("--motion {} is not known; use one of {}", name,
+    return error(Trouble::usage, fmt::format("`motion` {} is not known; use one of {}", name,
                                              fmt::join(names, ", ")));
   if (!(seconds >= 1) || seconds > 36000)
     return error(Trouble::usage,
-                 fmt::format("--seconds {} is out of range; use 1 to 36000", seconds));
+                 fmt::format("`seconds` {} is out of range; use 1 to 36000", seconds));
 
   const Vec3 out = -place.into;
   const Vec3 u = out.unitOrthogonal(), v = out.cross(u);

@@ -82,7 +82,7 @@ std::vector<std::string> doubts(const device::HandPath& path, const volume::Bone
   else if (away > burr_radius)
     out.push_back(
         fmt::format("{}: the hand is never nearer than {:.1f} mm to the bone, so nothing "
-                    "is touched; compare its places with the box that `burr info` shows",
+                    "is touched; compare its places with the box of the bone",
                     name, 1e3 * away));
   return out;
 }

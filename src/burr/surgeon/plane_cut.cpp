@@ -86,7 +86,7 @@ Result<CutPlane> plane_of(const scenario::CaseLesson& lesson, std::string_view i
   const scenario::Step* const step = lesson.step(id);
   if (step == nullptr)
     return error(Trouble::usage,
-                 fmt::format("--motion step:{}: the case has no such step; its steps are {}",
+                 fmt::format("`motion` step:{}: the case has no such step; its steps are {}",
                              base::printable(std::string(id)), step_ids(lesson)));
   const scenario::CaseRegion* const region = lesson.region(step->region);
   const bool slab = region != nullptr && region->add.size() == 1 && region->take.size() == 1 &&
@@ -95,9 +95,9 @@ Result<CutPlane> plane_of(const scenario::CaseLesson& lesson, std::string_view i
                     region->add[0].normal.dot(region->take[0].normal) > kParallel;
   if (!slab)
     return error(Trouble::usage,
-                 fmt::format("--motion step:{}: the region of this step does not lie "
+                 fmt::format("`motion` step:{}: the region of this step does not lie "
                              "between two parallel planes, so there is no plane to "
-                             "cut along; use --path",
+                             "cut along; use `path`",
                              id));
   CutPlane plane;
   plane.normal = region->add[0].normal;
@@ -109,8 +109,8 @@ Result<CutPlane> plane_of(const scenario::CaseLesson& lesson, std::string_view i
   if (out.norm() < 0.5)
     return error(
         Trouble::usage,
-        fmt::format("--motion step:{}: the approach of this step runs across its plane; give "
-                    "a direction within the plane, or use --path",
+        fmt::format("`motion` step:{}: the approach of this step runs across its plane; give "
+                    "a direction within the plane, or use `path`",
                     id));
   plane.out = out.normalized();
   return plane;
@@ -144,13 +144,13 @@ Blade round_blade(double burr_radius) {
 Result<HandPath> cut_along(const volume::Bone& bone, const CutPlane& plane, const Blade& blade,
                            double seconds) {
   if (!(seconds >= kLeast) || seconds > kMost)
-    return error(Trouble::usage, fmt::format("--seconds {}: a cut along a plane takes {} to {} s",
+    return error(Trouble::usage, fmt::format("`seconds` {}: a cut along a plane takes {} to {} s",
                                              seconds, kLeast, kMost));
   Vec3 along = plane.normal.cross(plane.out);
   if (along.z() < 0) along = -along;  // a handle that lies points upwards
   const Section section = section_of(bone, plane, along);
   if (section.high < section.low)
-    return error("the plane of this step meets no bone; check --volume and the case's landmarks");
+    return error("the plane of this step meets no bone; check the bone and the case's landmarks");
   const math::Quat held = blade.lies ? axes(plane.out, along) : axes(along, plane.out);
 
   // of the tool's origin
@@ -171,7 +171,7 @@ Result<HandPath> cut_along(const volume::Bone& bone, const CutPlane& plane, cons
     if (!(each > 0))
       return error(
           Trouble::usage,
-          fmt::format("--seconds {}: this blade goes in at {} places; give more than {:.0f}",
+          fmt::format("`seconds` {}: this blade goes in at {} places; give more than {:.0f}",
                       seconds, places, std::ceil(3 * kWay * places)));
     for (int n = 0; n < places; ++n) {
       const double side = places > 1 ? middle - reach + 2 * reach * n / (places - 1) : middle;

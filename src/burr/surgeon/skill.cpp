@@ -122,15 +122,15 @@ std::vector<std::string> vice_names() {
   return names;
 }
 
-Status set_vice(Skill& skill, std::string_view name, double value) {
+Status set_vice(Skill& skill, std::string_view vice, double value) {
   const auto* found = std::find_if(kVices.begin(), kVices.end(),
-                                   [name](const Vice& one) { return one.name == name; });
+                                   [vice](const Vice& one) { return one.name == vice; });
   if (found == kVices.end())
     return error(Trouble::usage,
-                 fmt::format("--vice {}: there is no such number; use one of {}",
-                             base::printable(std::string(name)), fmt::join(vice_names(), ", ")));
+                 fmt::format("`vice` {}: there is no such number; use one of {}",
+                             base::printable(std::string(vice)), fmt::join(vice_names(), ", ")));
   if (!(value >= found->least && value <= found->most))
-    return error(Trouble::usage, fmt::format("--vice {}={}: is out of range; use {} to {}", name,
+    return error(Trouble::usage, fmt::format("`vice` {}={}: is out of range; use {} to {}", vice,
                                              value, found->least, found->most));
   found->number(skill) = value * found->unit;
   return fine();

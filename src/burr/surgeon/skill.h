@@ -57,6 +57,6 @@ struct Skill {
 // Names for set_vice(), with the unit in the name: "perception_mm".
 [[nodiscard]] std::vector<std::string> vice_names();
 // Sets one number, given in the unit of its name. Error: unknown name or impossible value.
-[[nodiscard]] Status set_vice(Skill& skill, std::string_view name, double value);
+[[nodiscard]] Status set_vice(Skill& skill, std::string_view vice, double value);
 
 }  // namespace burr::surgeon

@@ -40,7 +40,7 @@ constexpr std::pair<std::uint32_t, const char*> kWords[] = {
     {rt::kFlagShaft, "the shaft, or another part of the tool that does not cut, was on bone"},
     {rt::kFlagLaw,
      "the law of your own gave a number that cannot be, or could not answer: it was switched off, "
-     "and the burr had no force from then on; try it with `burr verify law`"},
+     "and the burr had no force from then on; put it to its trial again"},
     {rt::kFlagNotCut, "the burr was blocked and part of the requested volume was not cut"},
 };
 

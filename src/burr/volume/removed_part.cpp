@@ -232,7 +232,7 @@ Result<std::unique_ptr<Bone>> removed_part(const Bone& before, const Bone& after
     return error("the two bones are not on the same grid, so the removed part cannot be computed");
   const CutField cut(before, after);
   if (cut.touched().empty())
-    return error("nothing has been removed from this bone yet; export --part bone instead");
+    return error("nothing has been removed from this bone yet; export `part` bone instead");
   if (finer > 1) return on_a_finer_grid(before, cut, finer);
   bool any = false;
   auto removed = on_the_same_grid(before, cut, any);

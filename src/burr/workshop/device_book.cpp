@@ -165,8 +165,7 @@ Status DeviceBook::set(const std::string& id, std::string_view assignment) {
 }
 
 std::string DeviceBook::text() const {
-  std::string text =
-      "# What burr does with each haptic device. Changed by `burr devices set` or here.\n";
+  std::string text = "# What burr does with each haptic device. Changed by burr or here.\n";
   for (const auto& [id, kept] : preferences_) {
     text += fmt::format("\n[{}]\n", base::toml_text(id));
     DevicePreferences preferences = kept;

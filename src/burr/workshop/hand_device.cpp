@@ -101,7 +101,7 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandRequest& request) {
           std::from_chars(which.data(), which.data() + which.size(), settings.serial);
       if (trouble != std::errc() || end != which.data() + which.size() || settings.serial < 0)
         return error(Trouble::usage,
-                     fmt::format("--device {}: after the colon comes a serial number", name));
+                     fmt::format("`device` {}: after the colon comes a serial number", name));
     }
     return std::unique_ptr<device::Device>(std::make_unique<device::WireDevice>(
         std::make_unique<device::forcedimension::Omega>(std::move(settings))));
@@ -134,7 +134,7 @@ Result<std::unique_ptr<device::Device>> make_hand(const HandRequest& request) {
         std::make_unique<device::crtk::Leader>(std::move(settings))));
   }
   return error(Trouble::usage,
-               fmt::format("--device {}: burr does not know this device; use one of: {}", name,
+               fmt::format("`device` {}: burr does not know this device; use one of: {}", name,
                            kinds_known()));
 }
 

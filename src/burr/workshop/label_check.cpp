@@ -287,8 +287,9 @@ Result<std::vector<LabelFinding>> check_labels(const scenario::CaseLesson& lesso
                                                Progress& progress) {
   for (const std::string& name : accepted)
     if (lesson.structure(name) == nullptr)
-      return error(Trouble::usage, fmt::format("--accept-label {}: the case has no such structure",
-                                               base::printable(name)));
+      return error(Trouble::usage,
+                   fmt::format("`accepted_labels` {}: the case has no such structure",
+                               base::printable(name)));
   std::vector<LabelFinding> findings;
   for (const scenario::Structure& one : lesson.structures) {
     progress.report(
@@ -323,7 +324,7 @@ Status as_expected(const std::vector<LabelFinding>& findings, const std::string&
   return error(
       Trouble::data,
       fmt::format("{}: line {}: {} {} not as the case expects; \"{}\": {}; mend the label, give "
-                  "the case another range, or accept it with --accept-label \"{}\"",
+                  "the case another range, or accept it with `accepted_labels` \"{}\"",
                   file, first->line, bad, bad == 1 ? "label is" : "labels are",
                   base::printable(first->structure), first->faults.front(),
                   base::printable(first->structure)));

@@ -75,10 +75,11 @@ std::string key_of(const tick::LawAbout& law) {
 
 }  // namespace
 
-Result<std::shared_ptr<LawFile>> LawFile::open(const std::string& path, const std::string& settings,
+Result<std::shared_ptr<LawFile>> LawFile::open(const std::string& path,
+                                               const std::string& law_settings,
                                                const std::filesystem::path& passes) {
   std::shared_ptr<LawFile> law(new LawFile);
-  auto bytes = bytes_of(path, kLargest, "--law");
+  auto bytes = bytes_of(path, kLargest, "`law`");
   if (!bytes) return bytes.error();
   law->path_ = path;
   law->passes_ = passes;
@@ -86,10 +87,10 @@ Result<std::shared_ptr<LawFile>> LawFile::open(const std::string& path, const st
                  .name = base::printable(std::filesystem::path(path).filename().string()),
                  .sha256 = sha256(*bytes),
                  .settings_sha256 = {}};
-  if (!settings.empty()) {
-    auto text = bytes_of(settings, kLargestSettings, "--law-settings");
+  if (!law_settings.empty()) {
+    auto text = bytes_of(law_settings, kLargestSettings, "`law_settings`");
     if (!text) return text.error();
-    law->settings_path_ = settings;
+    law->settings_path_ = law_settings;
     law->settings_ = std::move(*text);
     law->about_.settings_sha256 = sha256(law->settings_);
   }
@@ -107,7 +108,7 @@ Status LawFile::load(const std::string& bytes) {
     if (why.starts_with(there)) why.erase(0, there.size());
     if (why.starts_with(": ")) why.erase(0, 2);
     close(*file);
-    return error(fmt::format("--law {}: it cannot be loaded ({}); {}", path_,
+    return error(fmt::format("`law` {}: it cannot be loaded ({}); {}", path_,
                              base::printable(why, 200), kHow));
   }
   close(*file);
@@ -116,15 +117,15 @@ Status LawFile::load(const std::string& bytes) {
   delete_ = symbol<decltype(delete_)>(library_, "burr_law_v1_delete");
   if (call_ == nullptr)
     return error(
-        fmt::format("--law {}: this library has no function burr_law_v1; {}", path_, kHow));
+        fmt::format("`law` {}: this library has no function burr_law_v1; {}", path_, kHow));
   if ((new_ == nullptr) != (delete_ == nullptr))
     return error(
-        fmt::format("--law {}: burr_law_v1_new and burr_law_v1_delete must both be there, or "
+        fmt::format("`law` {}: burr_law_v1_new and burr_law_v1_delete must both be there, or "
                     "neither; {}",
                     path_, kHow));
   if (new_ == nullptr && !settings_path_.empty())
     return error(Trouble::usage,
-                 fmt::format("--law-settings {}: the law {} takes no settings (it has no "
+                 fmt::format("`law_settings` {}: the law {} takes no settings (it has no "
                              "burr_law_v1_new); leave them out",
                              settings_path_, about_.name));
   return fine();
@@ -146,9 +147,9 @@ Status LawFile::begin() {
   if (new_ != nullptr) {
     state_ = new_(settings_.c_str());
     if (state_ == nullptr)
-      return error(fmt::format("--law {}: the law refused its settings{}", path_,
-                               settings_path_.empty() ? "; it wants a file with --law-settings"
-                                                      : ", " + settings_path_));
+      return error(fmt::format(
+          "`law` {}: the law refused its settings{}", path_,
+          settings_path_.empty() ? "; it wants a file as `law_settings`" : ", " + settings_path_));
   }
   begun_ = true;
   return fine();
@@ -158,9 +159,9 @@ Status LawFile::fit_for_real_time() const {
   if (has_passed(passes_, about_)) return fine();
   return error(
       Trouble::usage,
-      fmt::format("--law {0}: a session in real time takes only a law that passed its trial "
-                  "on this computer; run `burr verify law {0}{1}`, again after each change",
-                  path_, settings_path_.empty() ? "" : " --law-settings " + settings_path_));
+      fmt::format("`law` {}: a session in real time takes only a law that passed its trial "
+                  "on this computer, again after each change",
+                  path_));
 }
 
 std::filesystem::path law_passes() {

@@ -20,10 +20,10 @@ namespace burr::workshop {
 
 class LawFile final : public tick::OwnLaw {
  public:
-  // settings: a file whose text the law gets; empty: none. passes: the folder of law_passes(), where
+  // law_settings: a file whose text the law gets; empty: none. passes: the folder of law_passes(), where
   // fit_for_real_time() looks; empty: nothing has passed. Error: it cannot be read or loaded, or is no law.
   [[nodiscard]] static Result<std::shared_ptr<LawFile>> open(
-      const std::string& path, const std::string& settings = "",
+      const std::string& path, const std::string& law_settings = "",
       const std::filesystem::path& passes = {});
   ~LawFile() override;
 

@@ -43,7 +43,7 @@ Result<importing::Imported> open_phantom(const scenario::BoneRecipe& recipe, Pro
       recipe.read_seconds != 0 || recipe.read_memory_mb != 0 || !recipe.keep.all() ||
       recipe.drop_islands_mm3 != 0)
     return error(Trouble::usage,
-                 "a phantom is a formula: only --voxel-mm and --materials apply to it");
+                 "a phantom is a formula: only `voxel_mm` and `materials` apply to it");
   std::function<void(volume::TissueTable&)> made_of;
   if (!recipe.materials.empty()) {
     auto materials = importing::read_materials(recipe.materials);
@@ -76,7 +76,7 @@ Result<importing::Imported> open_whole(const scenario::BoneRecipe& recipe) {
   usual.reserve_bricks = recipe.reserve_bricks;
   if (!(recipe == usual))
     return error(Trouble::usage,
-                 "a .bone file holds a bone as it is: only --reserve-bricks applies to it");
+                 "a .bone file holds a bone as it is: only `reserve_bricks` applies to it");
   std::ifstream in(recipe.source, std::ios::binary);
   const std::string name = std::filesystem::path(recipe.source).filename().string();
   if (!in) return error(fmt::format("{}: cannot read this file; check its name", name));

@@ -13,9 +13,9 @@
 
 namespace burr::workshop {
 
-// number: from 1; 0: the case's own bone, nothing changes. Errors (usage): a case on a scan, a phantom
+// bone_number: from 1; 0: the case's own bone, nothing changes. Errors (usage): a case on a scan, a phantom
 // without others, a number beyond phantom::kMostBones.
-[[nodiscard]] Status take_bone(scenario::Case& work, std::uint32_t number);
+[[nodiscard]] Status take_bone(scenario::Case& work, std::uint32_t bone_number);
 
 // True if the case has other bones.
 [[nodiscard]] bool has_other_bones(const scenario::Case& work);

@@ -77,7 +77,7 @@ void fit_burr(double& diameter_mm, double voxel, std::vector<std::string>& notic
   if (diameter_mm >= least_mm || least_mm > 1e3 * tool::kLargestDiameter) return;
   notices.push_back(
       fmt::format("A burr of {:.2f} mm is too small for voxels of {:.2f} mm: burr takes one of "
-                  "{:.1f} mm. A smaller burr needs --voxel-mm {:.2f} or finer.",
+                  "{:.1f} mm. A smaller burr needs `voxel_mm` {:.2f} or finer.",
                   diameter_mm, 1e3 * voxel, least_mm, std::floor(25 * diameter_mm) / 100));
   diameter_mm = least_mm;
 }

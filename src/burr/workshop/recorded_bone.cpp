@@ -32,12 +32,12 @@ Result<scenario::BoneRecipe> recipe_of(const scenario::BoneRecipe& recorded,
   if (!recorded.series.starts_with('#')) recipe.series = given.series;
   if (recorded.series == scenario::kOwn && given.series.empty())
     return error(Trouble::usage, fmt::format("{}: was made from a series chosen by its UID, which "
-                                             "recordings do not store; give it again with --series",
+                                             "recordings do not store; give it again with `series`",
                                              where));
   if (!recorded.labels.empty() && given.labels.empty())
     return error(
         Trouble::usage,
-        fmt::format("{}: was made with a table of tissues; give that table with --tissues", where));
+        fmt::format("{}: was made with a table of tissues; give that table with `labels`", where));
   return recipe;
 }
 

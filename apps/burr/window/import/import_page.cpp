@@ -13,6 +13,7 @@
 #include "shared/interrupt.h"
 #include "shared/word_names.h"
 #include "shared/work.h"
+#include "window/import/notice_words.h"
 #include "window/import/series_page.h"
 
 namespace burr::app {
@@ -303,9 +304,9 @@ void ImportPage::work() {
     starting_ = false;
     if (plan_trouble_.empty()) answer_ = Answer::start;
   }
-  desk_.message = !trouble_.empty()        ? trouble_
-                  : !plan_trouble_.empty() ? plan_trouble_
-                                           : parts_trouble_;
+  desk_.message = trouble_words(!trouble_.empty()        ? trouble_
+                                : !plan_trouble_.empty() ? plan_trouble_
+                                                         : parts_trouble_);
 }
 
 // ---- all steps

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "shared/front_words.h"
 #include "shared/word_names.h"
 
 namespace burr::app {
@@ -27,16 +28,16 @@ constexpr Known kKnown[] = {
     {"One of {} separate parts was removed {o}: {v} mm3, at {o} mm.", Word::notice_part},
     {"{} of {} separate parts were removed {o}: {v} mm3 in all, the largest of {v} mm3 at {o} mm.",
      Word::notice_parts},
-    {"There is no bone at {} mm: the part {} mm away is kept (--keep).", Word::notice_part_near},
-    {"Noise of {} {} is smoothed out along the surface; see --smooth.", Word::notice_smooth},
+    {"There is no bone at {} mm: the part {} mm away is kept (`keep`).", Word::notice_part_near},
+    {"Noise of {} {} is smoothed out along the surface; see `smooth`.", Word::notice_smooth},
     {"The values range from {} to {}, as in a CT: Hounsfield units are assumed.",
      Word::notice_hounsfield},
     {"The values are not HU: the surface level {} is an estimate {o}; give another level with "
-     "--iso.",
+     "`iso`.",
      Word::notice_level},
-    {"The values are not HU: Otsu's threshold {} between dark and bright is used {o}; see --iso.",
+    {"The values are not HU: Otsu's threshold {} between dark and bright is used {o}; see `iso`.",
      Word::notice_otsu},
-    {"No voxel reaches {} HU: Otsu's threshold {} is used {o}; see --iso.", Word::notice_no_bone},
+    {"No voxel reaches {} HU: Otsu's threshold {} is used {o}; see `iso`.", Word::notice_no_bone},
     {"{} voxels were padding and {o}.", Word::notice_padded},
     {"{} voxels were below -1024 HU {o}.", Word::notice_below},
     {"The voxels around the body hold 0, amid the other values: they were not measured and count "
@@ -50,11 +51,11 @@ constexpr Known kKnown[] = {
      Word::notice_memory},
     {"The file does not state its orientation: {}, {}, {} is assumed.", Word::notice_orientation},
     {"The file states no usable orientation: axial slices are assumed.", Word::notice_axial},
-    {"The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.", Word::notice_spacing},
-    {"The file states no usable voxel spacing: 1 mm is assumed; see --spacing-mm.",
+    {"The file states no voxel spacing: 1 mm is assumed; see `spacing_mm`.", Word::notice_spacing},
+    {"The file states no usable voxel spacing: 1 mm is assumed; see `spacing_mm`.",
      Word::notice_spacing},
-    {"The file states no Pixel Spacing: 1 mm is assumed; see --spacing-mm.", Word::notice_spacing},
-    {"The spacing is {} x {} x {} mm as given by --spacing-mm, instead of {} x {} x {} mm in the "
+    {"The file states no Pixel Spacing: 1 mm is assumed; see `spacing_mm`.", Word::notice_spacing},
+    {"The spacing is {} x {} x {} mm as given by `spacing_mm`, instead of {} x {} x {} mm in the "
      "file.",
      Word::notice_own_spacing},
     {"The file does not state its byte order: little endian is assumed.", Word::notice_bytes},
@@ -70,7 +71,7 @@ constexpr Known kKnown[] = {
      Word::notice_not_hounsfield},
     {"{} other files in the folder are damaged or cannot be read.", Word::notice_damaged},
     {"The picture is inverted (MONOCHROME1): dark is dense here.", Word::notice_inverted},
-    {"Beside the scan {} ({}); left out, choose with --series.", Word::notice_beside},
+    {"Beside the scan {} ({}); left out, choose with `series`.", Word::notice_beside},
     {"A burr of {} mm is too small for voxels of {} mm: burr takes one of {} mm. A smaller burr "
      "needs {o}.",
      Word::notice_burr},
@@ -119,9 +120,9 @@ std::string direction(const std::string& text) {
   return found == std::end(kWays) ? text : word(found->second);
 }
 
-// Leaves out what is in brackets, or behind a semicolon, and names an option.
-std::string without_options(std::string text) {
-  for (std::size_t at; (at = text.find("--")) != std::string::npos;) {
+// Leaves out what is in brackets, or behind a semicolon, and names what the library can be given.
+std::string without_names(std::string text) {
+  for (std::size_t at; (at = text.find('`')) != std::string::npos;) {
     const std::size_t bracket = text.rfind(" (", at), closes = text.find(')', at);
     if (bracket != std::string::npos && text.find(')', bracket) == closes &&
         closes != std::string::npos) {
@@ -133,7 +134,7 @@ std::string without_options(std::string text) {
                                : sentence == std::string::npos ? behind
                                                                : std::max(behind, sentence);
     const std::size_t end = std::min(text.find(". ", at), text.size());
-    if (clause == std::string::npos) return text;
+    if (clause == std::string::npos) return in_options(text);
     // a whole sentence goes with its dot
     text.replace(clause, end - clause, end < text.size() || text[clause] != '.' ? "" : ".");
     if (text.empty() || text.back() != '.') text += '.';
@@ -157,7 +158,19 @@ std::string notice_words(const std::string& sentence) {
       store.push_back(known.says == Word::notice_orientation ? direction(value) : std::move(value));
     return fmt::vformat(word(known.says), store);
   }
-  return without_options(sentence);
+  return without_names(sentence);
+}
+
+std::string trouble_words(const std::string& sentence) {
+  constexpr std::pair<std::string_view, Word> kLabels[] = {
+      {"as_it_is", Word::import_as_it_is}, {"iso", Word::import_level},
+      {"labels", Word::import_labels},     {"region", Word::import_region},
+      {"series", Word::import_series},     {"voxel_mm", Word::import_voxel}};
+  return in_options(with_names_said(sentence, [&kLabels](std::string_view name) {
+    const auto* found = std::find_if(std::begin(kLabels), std::end(kLabels),
+                                     [name](const auto& one) { return one.first == name; });
+    return found == std::end(kLabels) ? std::string() : fmt::format("\"{}\"", word(found->second));
+  }));
 }
 
 }  // namespace burr::app

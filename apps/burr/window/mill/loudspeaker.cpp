@@ -23,7 +23,7 @@ Loudspeaker::Loudspeaker(const tick::ServoSettings& settings,
 void Loudspeaker::open() {
   speaker_.reset();
   auto opened = sound::Speaker::open();
-  trouble_ = opened ? "" : opened.error().text;
+  trouble_ = opened ? "" : opened.error().text + ", or switch sound off with --no-sound";
   if (!opened) return;
   speaker_ = std::move(*opened);
   speaker_->voice().loudness(loudness());

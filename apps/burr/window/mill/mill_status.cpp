@@ -15,6 +15,7 @@
 #include "burr/workshop/device_book.h"
 #include "burr/workshop/fault_file.h"
 #include "burr/workshop/work_view.h"
+#include "shared/front_words.h"
 #include "shared/word_names.h"
 #include "window/mill/mill.h"
 #include "window/mill/steps_panel.h"
@@ -114,6 +115,7 @@ void Mill::keep_fault_of(const device::Device& hand, const tick::FaultReport& fa
 }
 
 void Mill::note(std::string text) {
+  text = in_options(text);
   if (!text.empty()) status_.note(std::move(text), Clock::now());
 }
 
@@ -143,7 +145,7 @@ void Mill::update_status() {
   // a mouse has no motors that could get warm, and nobody feels its ticks
   const std::uint32_t hidden = hands_.real == nullptr ? rt::kFlagThermal | rt::kFlagWatchdog : 0U;
   if (lasting.empty()) lasting = flag_texts(row_.contact.flags & ~hidden);
-  warning_ = status_.warning(now, lasting);
+  warning_ = status_.warning(now, in_options(lasting));
   // after the reason of the release: what the user should do
   if (lasting.empty() && session_.servo().released() && (row_.hand.buttons & device::kLifted) == 0)
     warning_ += (warning_.empty() ? "" : ". ") + std::string(word(Word::begins_free));

@@ -9,6 +9,7 @@
 
 #include "burr/base/new_file.h"
 #include "burr/base/text_file.h"
+#include "shared/front_words.h"
 
 namespace burr::app {
 namespace {
@@ -76,14 +77,14 @@ void SavedViews::read() {
   if (file_.empty() || !std::filesystem::exists(file_, nobody_asks)) return;
   const auto text = base::text_of_file(file_.string(), kLargestFile, "views that were kept");
   if (!text) {
-    trouble_ = text.error().text + "; the views kept before are not available";
+    trouble_ = in_options(text.error()).text + "; the views kept before are not available";
     keep_old_ = true;
     return;
   }
   const std::string name = file_.filename().string();
   const auto table = parse_toml(*text, name);
   if (!table) {
-    trouble_ = table.error().text + "; the views kept before are not available";
+    trouble_ = in_options(table.error()).text + "; the views kept before are not available";
     keep_old_ = true;
     return;
   }

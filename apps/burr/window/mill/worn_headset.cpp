@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "shared/front_words.h"
 #include "shared/word_names.h"
 
 namespace burr::app {
@@ -22,8 +23,8 @@ std::string WornHeadset::look_for_it() {
       return say(Word::headset_on, desk_.headset->name());
     }
     desk_.headset_wanted = false;
-    fmt::print(stderr, "{}\n", made.error().text);
-    return made.error().text;
+    fmt::print(stderr, "{}\n", in_options(made.error()).text);
+    return in_options(made.error()).text;
   }
   if (desk_.headset != nullptr && desk_.headset->over()) {
     std::string why = desk_.headset->why();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "burr/render/picture.h"
+#include "shared/front_words.h"
 #include "shared/helper_process.h"
 #include "shared/word_names.h"
 #include "window/parts/hud.h"
@@ -70,7 +71,7 @@ void ExportPage::ask(bool may_replace) {
   trouble_.clear();
   replaces_ = false;
   if (const Status possible = check_request(request_); !possible) {
-    trouble_ = possible.error().text;
+    trouble_ = in_options(possible.error()).text;
     return;
   }
   if (!may_replace && already_there(request_)) {
@@ -85,7 +86,7 @@ void ExportPage::ask(bool may_replace) {
       return;
     }
     if (const Status possible = check_film(request_.path, source->plan.size); !possible) {
-      trouble_ = possible.error().text;
+      trouble_ = in_options(possible.error()).text;
       return;
     }
     work_ = std::make_unique<Loading<ExportDone>>(
@@ -111,7 +112,7 @@ void ExportPage::ask(bool may_replace) {
     scene.quality = {};
     auto image = desk_.renderer().image(scene, desk_.renderer().width(), desk_.renderer().height());
     if (!image) {
-      trouble_ = image.error().text;
+      trouble_ = in_options(image.error()).text;
       return;
     }
     picture = std::make_shared<const render::Image>(std::move(*image));
@@ -142,7 +143,7 @@ ExportPage::Told ExportPage::step() {
                        : Word::film_stopped)};
     request_ = writing_;
     show(true);
-    trouble_ = done.error().text;
+    trouble_ = in_options(done.error()).text;
     return {};
   }
   if (done->pictures > 0) return {say(Word::film_done, done->path, done->pictures), true};

@@ -21,6 +21,7 @@
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
+#include "shared/front_words.h"
 #include "shared/work.h"
 
 namespace burr::app {
@@ -279,7 +280,7 @@ Autosave::Autosave(const fs::path& state, WindowSession& ready, const WorkOption
     recording_now_ = made.ok();
   }
   if (made) made = write_account();
-  if (!made) trouble_ = made.error().text;
+  if (!made) trouble_ = in_options(made.error()).text;
 }
 
 std::optional<FilmSource> Autosave::film_source() const {
@@ -316,7 +317,7 @@ Status Autosave::finish() {
   kept_.clean = true;
   const Status written = write_account();
   if (done) done = written;
-  if (!done) trouble_ = done.error().text;
+  if (!done) trouble_ = in_options(done.error()).text;
   is_kept_ = outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep;
   if (is_kept_) return done;
   remove_session(kept_.file);  // nothing was done: there is nothing to continue

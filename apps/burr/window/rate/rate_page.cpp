@@ -15,6 +15,7 @@
 #include "burr/school/ratings.h"
 #include "burr/school/store.h"
 #include "school/products.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/word_names.h"
 #include "window/rate/product_bone.h"
@@ -95,7 +96,7 @@ class Rate {
 
   void begin() {
     if (const Status good = school::check_name(word(Word::rate_you), shown_.rater); !good) {
-      shown_.note = good.error().text;
+      shown_.note = in_options(good.error()).text;
       return;
     }
     if (state_.rater != shown_.rater) {  // another person has another queue
@@ -130,7 +131,7 @@ class Rate {
     shown_.making = false;
     const auto queue = products_here(*store_, state_.rater, "", state_.seed);
     if (!queue) {
-      shown_.trouble = queue.error().text;
+      shown_.trouble = in_options(queue.error()).text;
       return;
     }
     shown_.left = queue->here.size();
@@ -146,7 +147,7 @@ class Rate {
     shown_.heading = say(Word::rate_product, name_of_case(product->case_name));
     const auto items = product_items(*store_, product->session, product->rubric_hash);
     if (!items) {
-      shown_.trouble = items.error().text;
+      shown_.trouble = in_options(items.error()).text;
       return;
     }
     for (const ProductItem& one : *items) {
@@ -159,7 +160,7 @@ class Rate {
   void open_bone(const std::string& session) {
     const auto recording = recording_of(*store_, session);
     if (!recording) {
-      shown_.trouble = recording.error().text;
+      shown_.trouble = in_options(recording.error()).text;
       return;
     }
     shown_.making = true;
@@ -175,7 +176,7 @@ class Rate {
     loading_.reset();
     shown_.making = false;
     if (!made) {
-      shown_.trouble = made.error().text;
+      shown_.trouble = in_options(made.error()).text;
       return;
     }
     bone_ = std::make_unique<ProductBone>(std::move(*made));
@@ -199,7 +200,7 @@ class Rate {
     for (const RateItem& one : shown_.items)
       marking.marks.push_back({one.id, one.mark, one.reason});
     if (const Status kept = school::mark(*store_, marking); !kept) {
-      shown_.note = kept.error().text;
+      shown_.note = in_options(kept.error()).text;
       return;
     }
     state_.session.clear();

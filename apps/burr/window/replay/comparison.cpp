@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "shared/front_words.h"
 #include "shared/word_names.h"
 #include "window/parts/hud.h"
 #include "window/replay/timeline_panel.h"
@@ -43,7 +44,7 @@ void FactsJob::step() {
   if (facts)
     facts_.emplace(std::move(*facts));
   else if (facts.error().trouble != Trouble::interrupted)
-    trouble_ = facts.error().text;
+    trouble_ = in_options(facts.error()).text;
 }
 
 // ---- in slices

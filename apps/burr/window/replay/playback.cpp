@@ -14,6 +14,7 @@
 #include "burr/workshop/piece_look.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
+#include "shared/front_words.h"
 #include "shared/word_names.h"
 #include "window/parts/kept_sessions.h"
 
@@ -144,13 +145,13 @@ void Playback::work() {
       lock.unlock();
     }
     if (const Status there = player_.bone_at(shown.t, bone_); !there)
-      shown.trouble = there.error().text;
+      shown.trouble = in_options(there.error()).text;
     else if (!step)
-      shown.trouble = step.error().text;
+      shown.trouble = in_options(step.error()).text;
     else if (auto piece = pieces_.at(step->row, shown.t, bone_); piece)
       shown.piece = std::move(*piece);
     else
-      shown.trouble = piece.error().text;
+      shown.trouble = in_options(piece.error()).text;
     shown.changes = traces_.seek(shown.t);
     lock.lock();
     working_ = false;

@@ -8,6 +8,7 @@
 #include "burr/tick/mirror_plane.h"
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/work_view.h"
+#include "shared/front_words.h"
 #include "window/parts/mirror_mode.h"
 #include "window/replay/difference.h"
 
@@ -89,7 +90,7 @@ void ReplayView::look(bool effects, bool playing, bool left_handed) {
   piece_.put(scene(), shown_.piece.mesh, shown_.piece.by, recorded_.bone->tissues().tissues.size());
   if (scene().burr.visible && shown_.row.tool.radius > 0) lean_tool(left_handed);
   trouble_ = !shown_.trouble.empty()      ? shown_.trouble
-             : !recorded_.notices.empty() ? recorded_.notices.front()
+             : !recorded_.notices.empty() ? in_options(recorded_.notices.front())
                                           : std::string();
   show_mirror(scene(), recorded_.bone->grid(), tick::mirror_of(tool()));
   // the picture is complete when bone, surface and GPU have it; a short lag while playing does not

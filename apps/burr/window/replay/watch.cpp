@@ -9,6 +9,7 @@
 
 #include "burr/render/picture.h"
 #include "burr/scenario/open_lesson.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/word_names.h"
 #include "window/parts/export_page.h"
@@ -92,7 +93,7 @@ Result<Closed> Watch::run() {
     if (const auto pressed = std::exchange(pressed_, std::nullopt)) act(*pressed);
     if (std::exchange(picture_, false)) {
       const Result<std::string> left = desk_.leave_picture(options_.folder);
-      note(left ? say(Word::picture_left, *left) : left.error().text);
+      note(left ? say(Word::picture_left, *left) : in_options(left.error()).text);
     }
     frame = std::max(frame + std::chrono::microseconds(16'667), Clock::now());
     const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(frame - Clock::now());

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/word_names.h"
 #include "window/parts/export_page.h"
@@ -79,7 +80,8 @@ void Watch::take_events() {
   }
   for (const std::string& file : std::exchange(dropped_, {})) {
     const Status opened = open_beside(file);
-    if (!opened && opened.error().trouble != Trouble::interrupted) trouble_ = opened.error().text;
+    if (!opened && opened.error().trouble != Trouble::interrupted)
+      trouble_ = in_options(opened.error()).text;
   }
 }
 

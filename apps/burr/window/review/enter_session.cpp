@@ -10,6 +10,7 @@
 
 #include "burr/school/pending.h"
 #include "burr/school/store.h"
+#include "shared/front_words.h"
 #include "shared/helper_process.h"
 #include "shared/word_names.h"
 #include "window/review/review.h"
@@ -53,7 +54,7 @@ void take_in(Desk& desk, const school::StorePlace& place) {
     if (!child->fine())
       tell(desk, say(Word::school_waits, child->complaint("burr learner take-in")));
     else if (const std::string line = child->last_line(); !line.empty())
-      tell(desk, line);
+      tell(desk, in_options(line));
     return true;
   });
 }
@@ -66,7 +67,7 @@ void session_begins(Desk& desk, const std::string& recording, const record::Iden
   if (!place) return;
   const school::WaitingRecording waits = waiting_of(recording, identity, *work);
   if (const Status kept = school::keep(*place, waits); !kept)
-    tell(desk, say(Word::school_not_entered, waits.file, kept.error().text));
+    tell(desk, say(Word::school_not_entered, waits.file, in_options(kept.error()).text));
 }
 
 void session_ended(Desk& desk, const std::string& recording, const record::Identity& identity,
@@ -77,7 +78,7 @@ void session_ended(Desk& desk, const std::string& recording, const record::Ident
   if (!kept) return school::drop(*place, waits);
   // once more: another burr may have tried it meanwhile
   if (const Status again = school::keep(*place, waits); !again)
-    return tell(desk, say(Word::school_not_entered, waits.file, again.error().text));
+    return tell(desk, say(Word::school_not_entered, waits.file, in_options(again.error()).text));
   take_in(desk, *place);
 }
 
@@ -86,7 +87,7 @@ void enter_waiting(Desk& desk) {
   if (!place || !school::is_wanted(desk.store, *place)) return;
   std::vector<std::string> notices;
   if (!school::waiting(*place, notices).empty()) take_in(desk, *place);
-  for (const std::string& line : notices) tell(desk, line);
+  for (const std::string& line : notices) tell(desk, in_options(line));
 }
 
 }  // namespace burr::app

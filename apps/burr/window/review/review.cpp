@@ -14,6 +14,7 @@
 #include "burr/render/picture.h"
 #include "burr/report/marked.h"
 #include "burr/report/questions.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/word_names.h"
 #include "window/review/full_report.h"
@@ -140,7 +141,7 @@ class Review {
       if (made)
         report_ = std::move(*made);
       else
-        trouble_ = made.error().text;
+        trouble_ = in_options(made.error()).text;
     }
     full_->step();
     ReviewState state;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "burr/workshop/device_book.h"
+#include "shared/front_words.h"
 #include "shared/word_names.h"
 
 namespace burr::app {
@@ -51,9 +52,9 @@ void HandChoice::look() {
   asked.home = false;  // no movement before there is a bone
   looks_ = std::async(std::launch::async, [asked]() -> Found {
     auto device = workshop::make_hand(asked);
-    if (!device) return {false, device.error().text};
+    if (!device) return {false, in_options(device.error()).text};
     const Status opened = (*device)->open();
-    if (!opened) return {false, opened.error().text};
+    if (!opened) return {false, in_options(opened.error()).text};
     const device::DeviceSpec spec = (*device)->spec();
     (*device)->close();
     return {true, fmt::format("{}: {:.1f} N, {:.0f} Hz", workshop::id_of(spec), spec.peak_force,

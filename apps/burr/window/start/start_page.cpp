@@ -12,6 +12,7 @@
 
 #include "burr/scenario/case.h"
 #include "burr/workshop/hand_device.h"
+#include "shared/front_words.h"
 #include "shared/interrupt.h"
 #include "shared/word_names.h"
 #include "shared/work.h"
@@ -57,9 +58,9 @@ StartPage::StartPage(Desk& desk, HelpRows help_rows, const workshop::HandRequest
 
 Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seconds) {
   using Clock = std::chrono::steady_clock;
-  desk_.message = trouble;
+  desk_.message = in_options(trouble);
   for (const std::string& one : std::exchange(desk_.troubles, {}))
-    desk_.message += (desk_.message.empty() ? "" : "\n") + one;
+    desk_.message += (desk_.message.empty() ? "" : "\n") + in_options(one);
   choice_.reset();
   kept_ = kept_sessions(desk_.places().state);
   recent_ = recent(desk_.places().state);

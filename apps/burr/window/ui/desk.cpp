@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "burr/render/picture.h"
+#include "shared/front_words.h"
 #include "shared/word_names.h"
 
 namespace burr::app {
@@ -25,7 +26,10 @@ Result<std::unique_ptr<Desk>> Desk::open(const DeskPlaces& places) {
   desk->headset_wanted = desk->settings.headset;
   desk->asked_quads_ = desk->settings.stereo == render::Stereo::quad_buffer;
   auto renderer = render::Renderer::window("burr", 1280, 720, desk->asked_quads_);
-  if (!renderer) return renderer.error();
+  if (!renderer)
+    return error(renderer.error().trouble,
+                 renderer.error().text +
+                     "; without a window, use burr run --headless, burr mill or burr picture");
   desk->renderer_ = std::move(*renderer);
   if (desk->asked_quads_ && !desk->renderer_->quad_buffer())
     desk->troubles.emplace_back(word(Word::stereo_no_quads));
@@ -40,7 +44,7 @@ void Desk::settings_changed() {
   if (kept)
     keep_old_ = false;
   else
-    troubles = {kept.error().text};
+    troubles = {in_options(kept.error()).text};
 }
 
 bool Desk::next(SDL_Event& event) {

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "shared/front_words.h"
 #include "shared/word_names.h"
 #include "window/ui/imgui_keys.h"
 #include "window/ui/typed_path.h"
@@ -125,7 +126,7 @@ void FileDialog::go_to(fs::path folder) {
   const fs::path whole = fs::weakly_canonical(folder, trouble);
   if (!trouble) folder = whole;
   auto entries = entries_of(folder, listed());
-  trouble_ = entries ? std::string() : entries.error().text;
+  trouble_ = entries ? std::string() : in_options(entries.error()).text;
   if (!entries && !entries_.empty()) return;
   entries_ = entries ? std::move(*entries) : std::vector<FolderEntry>();
   const std::string from = folder_.parent_path() == folder ? folder_.filename().string() : "";

@@ -280,7 +280,8 @@ Status Leader::prepare(Connection& connection) {
   if (connection.state == "FAULT") return trouble("clear the fault at its console");
   if (!settings_.home_allowed)
     return trouble(
-        "enable and home it at its console, or let burr do it with --home: the arm then moves");
+        "enable and home it at its console, or let burr do it with `home_allowed`: the arm then "
+        "moves");
   connection.ask(connection.state == "PAUSED" ? "resume" : "enable");
   static_cast<void>(until(kMatched, [&connection] {
     connection.listen();

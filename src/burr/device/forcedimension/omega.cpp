@@ -75,7 +75,7 @@ const char* force_off_words(int cause) BURR_RT {
              "button.";
     case 3:
       return "received no command for too long and released the force (watchdog); press its force "
-             "button, and close other programs (see burr check).";
+             "button, and close other programs.";
     case 4:
       return "released the force because a program asked for it; close other programs that use it, "
              "and begin again.";
@@ -206,20 +206,18 @@ Status Omega::home() {
     return error(
         Trouble::io,
         fmt::format("{}: burr cannot find out whether {} is homed (libdrd is missing); install "
-                    "libdrd of the same SDK beside it, or home the arm by hand and use --is-homed",
+                    "libdrd of the same SDK beside it, or home the arm by hand and use `is_homed`",
                     dhd_->file, name_));
   }
   if (dhd_->DrdIsInitialized(id)) return fine();
   if (was_ready_)
-    return error(
-        Trouble::io,
-        fmt::format(
-            "{} is no longer homed; begin a new session, with --home if its arm may move by itself",
-            name_));
+    return error(Trouble::io, fmt::format("{} is no longer homed; begin a new session, with "
+                                          "`home_allowed` if its arm may move by itself",
+                                          name_));
   if (!settings_.home_allowed)
     return error(Trouble::io,
                  fmt::format("{} is not homed: clear the space around its arm, take your hand off "
-                             "it, and allow it to move by itself with --home",
+                             "it, and allow it to move by itself with `home_allowed`",
                              name_));
   const bool homed = !failed(dhd_->DrdAutoInit(id));
   const int trouble = homed ? kNoError : dhd_->ErrorGetLast();

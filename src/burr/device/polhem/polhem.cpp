@@ -108,12 +108,13 @@ Result<DeviceSpec> Polhem::connect() {
   port_ = ::open(port.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (port_ < 0 && errno == EACCES)
     return fail(
-        fmt::format("{}: your user may not open it; run burr doctor --fix, or: sudo usermod -aG "
-                    "dialout $USER, and log in again",
+        fmt::format("{}: your user may not open it; run sudo usermod -aG dialout $USER, and "
+                    "log in again",
                     port.path));
   if (port_ < 0)
     return fail(
-        fmt::format("{} cannot be opened ({}); see burr devices", port.path, std::strerror(errno)));
+        fmt::format("{} cannot be opened ({}); `workshop::names_there` lists what is connected",
+                    port.path, std::strerror(errno)));
   termios raw{};
   if (::tcgetattr(port_, &raw) != 0)
     return fail(fmt::format("{} is not a serial port; give the port of the arm", port.path));

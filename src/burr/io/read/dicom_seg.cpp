@@ -400,11 +400,11 @@ Result<std::optional<std::size_t>> choose_segmentation(const std::vector<DicomHe
     if (different.size() == 1 && place <= static_cast<std::int64_t>(fits.size()))
       return std::optional(fits[numbered ? static_cast<std::size_t>(place - 1) : 0]);
     if (volumes > 0 && fits.empty()) return std::optional<std::size_t>();
-    return error(Trouble::usage, fmt::format("{}: {} series match --series \"{}\"; there are {}",
+    return error(Trouble::usage, fmt::format("{}: {} series match `series` \"{}\"; there are {}",
                                              file, different.size(), options.series, list));
   }
   if (volumes > 0) {
-    scan.notices.push_back(fmt::format("Beside the scan {} ({}); left out, choose with --series.",
+    scan.notices.push_back(fmt::format("Beside the scan {} ({}); left out, choose with `series`.",
                                        all.size() == 1
                                            ? "lies a DICOM segmentation"
                                            : fmt::format("lie {} DICOM segmentations", all.size()),
@@ -413,7 +413,7 @@ Result<std::optional<std::size_t>> choose_segmentation(const std::vector<DicomHe
   }
   if (all.size() > 1)
     scan.notices.push_back(
-        fmt::format("{} segmentations found ({}); #1 is used, choose another with --series.",
+        fmt::format("{} segmentations found ({}); #1 is used, choose another with `series`.",
                     all.size(), list));
   return std::optional<std::size_t>(0);
 }

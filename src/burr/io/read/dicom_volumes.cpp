@@ -286,18 +286,18 @@ Result<std::size_t> choose(const Found& found, const std::vector<Volume>& volume
     if (good && !numbered && fits.size() == 1)
       return best_of([&](const Volume& v) { return v.series == *fits.begin(); });
     return error(Trouble::usage,
-                 fmt::format("{}: {} series match --series \"{}\"; there are {}", file,
+                 fmt::format("{}: {} series match `series` \"{}\"; there are {}", file,
                              numbered ? 0 : fits.size(), options.series, list));
   }
   const std::size_t best = best_of([](const Volume&) { return true; });
   if (volumes.size() > all.size())
     scan.notices.push_back(fmt::format(
         "{} volumes found in {} series ({}); #{} was taken (of one series: the most slices, then "
-        "the bone kernel), choose with --series.",
+        "the bone kernel), choose with `series`.",
         volumes.size(), all.size(), list, best + 1));
   else if (volumes.size() > 1)
     scan.notices.push_back(
-        fmt::format("{} series found ({}); #{} is used, choose another with --series.", all.size(),
+        fmt::format("{} series found ({}); #{} is used, choose another with `series`.", all.size(),
                     list, best + 1));
   return best;
 }

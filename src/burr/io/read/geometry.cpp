@@ -241,7 +241,7 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
   if (!usable(affine))
     return error(
         fmt::format("{}: its voxel spacing, directions or origin are not valid; correct the header "
-                    "or give --spacing-mm",
+                    "or give `spacing_mm`",
                     file));
   Vec3 length;
   Mat3 axes;
@@ -305,7 +305,7 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
 
   if ((spacing_mm.array() > 0).all()) {
     scan.notices.push_back(fmt::format(
-        "The spacing is {:.4g} x {:.4g} x {:.4g} mm as given by --spacing-mm, instead of {:.4g} x "
+        "The spacing is {:.4g} x {:.4g} x {:.4g} mm as given by `spacing_mm`, instead of {:.4g} x "
         "{:.4g} x {:.4g} mm in the file.",
         spacing_mm.x(), spacing_mm.y(), spacing_mm.z(), length.x(), length.y(), length.z()));
     scan.spacing_mm = spacing_mm;

@@ -257,7 +257,7 @@ class Colours {
     }
     scan.notices.push_back(
         fmt::format("The {} colours of the pictures are the labels, numbered by red, green and "
-                    "blue; black and transparent is air. `--labels` gives them names by their "
+                    "blue; black and transparent is air. `labels` gives them names by their "
                     "colours.",
                     colours.size()));
     if (overlap > 0)

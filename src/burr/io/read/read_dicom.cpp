@@ -126,7 +126,7 @@ Status guarded(const std::filesystem::path& path, Work work) {
   } catch (const std::bad_alloc&) {
     return error(
         fmt::format("{}: reading it needs more memory than allowed; if you trust it, allow more "
-                    "with --read-memory-mb",
+                    "with `read_memory_mb`",
                     short_name(path)));
   } catch (const std::exception& problem) {
     return error(fmt::format("{}: cannot be decompressed: {}", short_name(path), problem.what()));
@@ -327,7 +327,7 @@ void say_header(const Series& series, const std::vector<Slice>& slices, const st
                                        h.unreadable.empty() ? "" : " that can be read"));
   else if (!first.has_spacing)
     scan.notices.emplace_back(
-        "The file states no Pixel Spacing: 1 mm is assumed; see --spacing-mm.");
+        "The file states no Pixel Spacing: 1 mm is assumed; see `spacing_mm`.");
   if (!first.has_orientation)
     scan.notices.emplace_back("The file states no usable orientation: axial slices are assumed.");
 }

@@ -220,7 +220,7 @@ Result<Affine> affine_of(const Header& header, std::vector<std::string>& notices
   if (!spaced) {
     spacing = {1, 1, 1};
     notices.emplace_back(
-        "The file states no usable voxel spacing: 1 mm is assumed; see --spacing-mm.");
+        "The file states no usable voxel spacing: 1 mm is assumed; see `spacing_mm`.");
   }
   for (int a = 0; a < 3; ++a) affine.step.col(a) *= std::abs(spacing[static_cast<std::size_t>(a)]);
   const std::vector<double> origin = vector({"Offset", "Position", "Origin"}, 3);

@@ -258,7 +258,7 @@ Affine affine_of(const Nifti& n, const std::string& file, bool check_scan, Scan&
         "The file does not state its orientation: right, anterior, superior is assumed.");
     if (guessed)
       scan.notices.emplace_back(
-          "The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.");
+          "The file states no voxel spacing: 1 mm is assumed; see `spacing_mm`.");
   }
   const Mat3 lps_from_ras = Vec3(-1, -1, 1).asDiagonal();
   affine.step = lps_from_ras * affine.step;

@@ -229,7 +229,7 @@ Affine affine_of(const NrrdHeader& header, const Shape& shape, const std::string
                                          file, base::printable(unread)));
     else if (!stated)
       scan.notices.emplace_back(
-          "The file states no voxel spacing: 1 mm is assumed; see --spacing-mm.");
+          "The file states no voxel spacing: 1 mm is assumed; see `spacing_mm`.");
   }
   const std::vector<double> origin = numbers(get("spaceorigin"), 3, commas);
   if (commas)

@@ -149,7 +149,7 @@ class Reader {
         stop();
         return error(
             fmt::format("{}: reading it made no progress for {:.0f} s and was stopped; copy it to "
-                        "a disk of this computer, or wait longer with --read-seconds",
+                        "a disk of this computer, or wait longer with `read_seconds`",
                         file_, limits_.seconds));
       }
     }
@@ -290,7 +290,7 @@ class Reader {
   [[nodiscard]] Error took_too_long() const {
     return error(
         fmt::format("{}: reading it took more than {:.0f} s of processor time, far more than its "
-                    "size requires; if you trust it, allow more with --read-seconds",
+                    "size requires; if you trust it, allow more with `read_seconds`",
                     file_, limits_.seconds));
   }
 
@@ -299,9 +299,9 @@ class Reader {
       return error(Trouble::internal,
                    "burr-read belongs to another version of burr; install burr again");
     if (refusal_ == FenceMessage::no_walls)
-      return error(
-          Trouble::internal,
-          "burr-read could not set its own limits and therefore read nothing; see `burr check`");
+      return error(Trouble::internal,
+                   "burr-read could not set its own limits and therefore read nothing; see "
+                   "`io::fence_state`");
     const int number = WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
     switch (number) {
       case SIGXCPU:

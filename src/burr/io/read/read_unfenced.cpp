@@ -291,7 +291,7 @@ Result<Scan> read_unfenced(const std::filesystem::path& path, const ReadOptions&
   if (trouble || status.type() == std::filesystem::file_type::not_found)
     return error(Trouble::io, fmt::format("{}: cannot be found; check the name", short_name(path)));
   if (!options.spacing_mm.isZero() && !(options.spacing_mm.array() > 0).all())
-    return error(Trouble::usage, "--spacing-mm: must be three numbers above 0");
+    return error(Trouble::usage, "`spacing_mm`: must be three numbers above 0");
   try {
     set_files_inside(nullptr);
     bool zipped = false;
@@ -306,7 +306,7 @@ Result<Scan> read_unfenced(const std::filesystem::path& path, const ReadOptions&
   } catch (const std::bad_alloc&) {
     return error(
         fmt::format("{}: reading it needs more memory than allowed; if you trust it, allow more "
-                    "with --read-memory-mb",
+                    "with `read_memory_mb`",
                     short_name(path)));
   } catch (const std::exception& problem) {  // from a library used here
     return error(fmt::format("{}: cannot be read: {}", short_name(path), problem.what()));

@@ -244,8 +244,8 @@ void add_study(const Job& job, DcmDataset& set) {
   const bool other = !letters.empty() && letters != "ISO_IR 192" && letters != "ISO_IR 6";
   if (other)
     demand(convert.selectCharacterSet(letters),
-           "the letters of the scan's patient cannot be read; leave the patient out with "
-           "--no-patient");
+           "the letters of the scan's patient cannot be read; leave the patient out, by "
+           "`io::SegOptions::study`");
   for (const json& one : job.told["study"]) {
     const auto tag = one[0].get<Uint32>();
     const auto raw = one[1].get<std::string>();
@@ -253,8 +253,8 @@ void add_study(const Job& job, DcmDataset& set) {
     // the letters ^ and = separate the parts of a name, and a backslash two values
     if (other)
       demand(convert.convertString(OFString(raw.data(), raw.size()), text, "\\^="),
-             "the letters of the scan's patient cannot be read; leave the patient out with "
-             "--no-patient");
+             "the letters of the scan's patient cannot be read; leave the patient out, by "
+             "`io::SegOptions::study`");
     demand(set.putAndInsertString(
                DcmTag(static_cast<Uint16>(tag >> 16), static_cast<Uint16>(tag & 0xFFFF)),
                text.c_str()),
@@ -324,7 +324,7 @@ int write_one_segmentation() {
     write_file();
   } catch (const std::bad_alloc&) {
     say("error there is too little memory for so many frames; write .seg.nrrd, or fewer voxels "
-        "(--voxel-mm)");
+        "(`voxel_mm`)");
     return 1;
   } catch (const std::exception& problem) {
     say(std::string("error ") + problem.what());

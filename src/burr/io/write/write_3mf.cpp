@@ -97,7 +97,7 @@ Status write_3mf(const MeshOut& out, base::NewFile& file, const std::string& pat
   if (!done) return stopped_writing(path);
   if (!zip.finish())
     return error(
-        path + ": the mesh is too large for 3MF (4 GB at most); use .stl, or a larger --voxel-mm");
+        path + ": the mesh is too large for 3MF (4 GB at most); use .stl, or a larger `voxel_mm`");
   return fine();
 }
 

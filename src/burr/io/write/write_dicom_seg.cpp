@@ -123,7 +123,7 @@ nlohmann::json segments_of(const Scan& scan, const SegOptions& options, SegWritt
   if (!uncoded.empty())
     written.notices.push_back(fmt::format(
         "These segments are coded as \"Anatomical Structure\" and nothing more, because no table "
-        "says what they are: {}; give codes as `sct` in a table (--tissues).",
+        "says what they are: {}; give codes as \"sct\" in a table (`labels`).",
         list_of(uncoded)));
   return out;
 }
@@ -359,7 +359,7 @@ Result<std::string> new_uid(const std::string& root) {
   }
   if (!good)
     return error(Trouble::usage,
-                 fmt::format("--uid-root: {} is no root of UIDs; give numbers with points between "
+                 fmt::format("`uid_root`: {} is no root of UIDs; give numbers with points between "
                              "them, for example 1.2.826.0.1.3680043.9.1234, of at most {} letters",
                              base::printable(root, 80), kLongestRoot));
   // 64 bits fit behind the longest root; behind 2.25 stands a whole UUID (version 4) of 128
@@ -445,7 +445,7 @@ Result<SegWritten> write_dicom_seg(const Scan& labels, const std::string& path,
   progress.report(1, "writing DICOM");
   if (!options.study)
     written.notices.emplace_back(
-        "The file names no patient and is a study of its own with new UIDs; --study-of SCAN puts "
+        "The file names no patient and is a study of its own with new UIDs; `study` puts "
         "it into the study of a DICOM scan.");
   else if (options.study->values.count(kFrameOfReference) == 0)
     written.notices.emplace_back(

@@ -92,7 +92,7 @@ Status write_glb(const MeshOut& out, base::NewFile& file, const std::string& pat
   const std::size_t total = 12 + 8 + json.size() + 8 + layout.size();
   if (total > 0xFFFFFFFFULL)
     return error(
-        path + ": the mesh is too large for GLB (4 GB at most); use .ply, or a larger --voxel-mm");
+        path + ": the mesh is too large for GLB (4 GB at most); use .ply, or a larger `voxel_mm`");
   const auto word = [&](std::size_t value) {
     const auto little = static_cast<std::uint32_t>(value);
     file.write(&little, sizeof little);

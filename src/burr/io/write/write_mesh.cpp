@@ -97,7 +97,7 @@ Status write_stl(const MeshOut& out, base::NewFile& file, const std::string& pat
   const std::size_t count = index.size() / 3;
   if (count > 0xFFFFFFFFULL)
     return error(path +
-                 ": STL holds at most 4 billion triangles; use .ply, or a larger --voxel-mm");
+                 ": STL holds at most 4 billion triangles; use .ply, or a larger `voxel_mm`");
   std::string header = fmt::format("burr UNIT=mm {}", out.mark());
   header.resize(80, ' ');
   file.write(header);

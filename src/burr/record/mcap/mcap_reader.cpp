@@ -282,7 +282,7 @@ Result<McapChunk> McapReader::read_chunk(std::size_t index) const {
                     path_, base::printable(at.compression)));
   McapChunk chunk;
   if (!unpack_chunk(at.offset, chunk))
-    return error(fmt::format("{}: the chunk at byte {} is damaged; `burr repair` saves the rest",
+    return error(fmt::format("{}: the chunk at byte {} is damaged; `record::repair` saves the rest",
                              path_, at.offset));
   return chunk;
 }
@@ -302,7 +302,7 @@ Result<std::vector<std::uint8_t>> McapReader::read_packed(std::size_t index) con
 Result<std::vector<std::uint8_t>> McapReader::read_attachment(std::size_t index) const {
   const mcap::AttachmentAt& at = attachments_.at(index);
   const Error damaged =
-      error(fmt::format("{}: the attachment \"{}\" is damaged; give the bone with --volume", path_,
+      error(fmt::format("{}: the attachment \"{}\" is damaged; give the bone with `volume`", path_,
                         base::printable(at.name)));
   std::vector<std::uint8_t> content;
   if (!read_content(at.offset, Kind::attachment, content)) return damaged;

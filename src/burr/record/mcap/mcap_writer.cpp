@@ -338,7 +338,7 @@ Status McapWriter::read_back(BytesOut& chunk_indexes) const {
     if (!in.ok() || length > size_ - at)
       return error(Trouble::io, shown_ +
                                     ": was changed by another program while it was being recorded; "
-                                    "`burr repair` saves what is left of it");
+                                    "`record::repair` saves what is left of it");
     at += length;
   }
   if (chunks_ > 0) put();

@@ -12,14 +12,11 @@ namespace burr::render::gl {
 
 namespace {
 
-constexpr const char* kWithoutWindow =
-    "; without a window, use burr run --headless, burr mill or burr picture";
-
-Error no_gl(const std::string& why, bool visible) {
+Error no_gl(const std::string& why) {
   return error(Trouble::io,
                fmt::format("OpenGL 3.3 or OpenGL ES 3.0 is not available ({}): install the "
-                           "packages libgl1-mesa-dri and libegl1, or your graphics card's driver{}",
-                           why, visible ? kWithoutWindow : ""));
+                           "packages libgl1-mesa-dri and libegl1, or your graphics card's driver",
+                           why));
 }
 
 // "DISPLAY is :0"
@@ -33,8 +30,8 @@ std::string display() {
 Error no_display(const std::string& why) {
   return error(Trouble::io,
                fmt::format("no window can be opened ({}; {}): use the computer's own display, or "
-                           "connect with ssh -X{}",
-                           why, display(), kWithoutWindow));
+                           "connect with ssh -X",
+                           why, display()));
 }
 
 bool on_x_server() {
@@ -95,7 +92,7 @@ Result<std::unique_ptr<Context>> Context::window(const std::string& title, int w
 Status Context::create(const std::string& title, int width, int height, bool visible, Api api,
                        bool quad_buffer) {
   std::string why;
-  if (!start_video(visible, why)) return visible ? no_display(why) : no_gl(why, visible);
+  if (!start_video(visible, why)) return visible ? no_display(why) : no_gl(why);
   catch_x_errors();
   sdl_ = true;
   visible_ = visible;
@@ -154,12 +151,11 @@ Status Context::create(const std::string& title, int width, int height, bool vis
     quad_buffer_ = given == GL_TRUE;
     break;
   }
-  if (gl_ == nullptr) return no_gl(why, visible);
+  if (gl_ == nullptr) return no_gl(why);
 
   if (epoxy_gl_version() < (es_ ? 30 : 33))
     return no_gl(fmt::format("the driver offers only version {}.{}", epoxy_gl_version() / 10,
-                             epoxy_gl_version() % 10),
-                 visible);
+                             epoxy_gl_version() % 10));
   // show at the screen's rate; a driver that cannot wait for it is fine too
   if (visible) SDL_GL_SetSwapInterval(1);
   if (const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER))) gpu_ = name;
