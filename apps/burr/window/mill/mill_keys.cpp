@@ -10,42 +10,72 @@
 #include <utility>
 
 #include "shared/word_names.h"
-#include "window/mill/mill.h"
+#include "window/mill/menu_panel.h"
+#include "window/mill/mill_actions.h"
 #include "window/ui/printed_keys.h"
 
 namespace burr::app {
 
-Mill::Key Mill::act_key(SDL_Keycode code, Action action) {
-  return {code, 0, [action](Mill& m) { m.act(action); }, {action, {}, {}}};
+namespace {
+
+using Does = std::function<void(MillActions&)>;
+
+// How the mouse does what a key does: by a button of the bar, by an item of the menu, or by what
+// `other` names (a gesture, a button on another panel). Every key has one of these.
+struct Reach {
+  std::optional<Action> button;
+  std::string item;
+  std::optional<Word> other;
+  bool twin = false;  // the key before it in the row does the same
+};
+struct Key {
+  SDL_Keycode code;
+  unsigned held;  // modifiers, of which one must be down; 0: any or none
+  Does does;
+  Reach reach;
+};
+struct KeyRow {
+  HelpBlock block;
+  std::string label;
+  Word says;
+  std::vector<Key> keys;
+};
+using KeyRows = std::vector<KeyRow>;
+
+constexpr double kDeeper = MillHand::kDeeper;
+
+void take(MillActions& m, ViewKind kind) { m.parts().view.take(kind, m.parts().hand.work()); }
+
+Key act_key(SDL_Keycode code, Action action) {
+  return {code, 0, [action](MillActions& m) { m.act(action); }, {action, {}, {}}};
 }
-Mill::Key Mill::item_key(SDL_Keycode code, std::function<void(Mill&)> does, std::string item,
-                         unsigned held) {
+Key item_key(SDL_Keycode code, Does does, std::string item, unsigned held = 0) {
   return {code, held, std::move(does), {{}, std::move(item), {}}};
 }
-Mill::Key Mill::other_key(SDL_Keycode code, std::function<void(Mill&)> does, Word other,
-                          unsigned held) {
+Key other_key(SDL_Keycode code, Does does, Word other, unsigned held = 0) {
   return {code, held, std::move(does), {{}, {}, other}};
 }
-Mill::Key Mill::twin_key(SDL_Keycode code, std::function<void(Mill&)> does, unsigned held) {
+Key twin_key(SDL_Keycode code, Does does, unsigned held = 0) {
   return {code, held, std::move(does), {{}, {}, {}, true}};
 }
 
 // A row without a label is not on the help page. A row without keys is for the mouse, or its keys
 // are handled elsewhere. If a key has several entries, the first that fits is used, so entries with
 // a modifier stand first. The rows are in the order of the help page.
-Mill::KeyRows Mill::hand_keys(bool left_handed) {
-  const auto deeper = [](Mill& m) { m.push(kDeeper); };
-  const auto less = [](Mill& m) { m.push(1 / kDeeper); };
-  const auto down = [](Mill& m) { m.deepen(1); };
-  const auto up = [](Mill& m) { m.deepen(-1); };
-  const auto stop = [](Mill& m) { m.stop_or_go_on(); };
+KeyRows hand_keys(bool left_handed) {
+  const auto deeper = [](MillActions& m) { m.parts().hand.push(kDeeper); };
+  const auto less = [](MillActions& m) { m.parts().hand.push(1 / kDeeper); };
+  const auto down = [](MillActions& m) { m.parts().hand.deepen(1); };
+  const auto up = [](MillActions& m) { m.parts().hand.deepen(-1); };
+  const auto stop = [](MillActions& m) { m.parts().hand.stop_or_go_on(); };
   return {
       {HelpBlock::hand, word(left_handed ? Word::key_right : Word::key_left), Word::help_mill, {}},
       {HelpBlock::hand,
        word(Word::key_space),
        Word::help_hold,
        {item_key(
-           SDLK_SPACE, [](Mill& m) { m.press_.toggle_hold(); }, word(Word::help_hold))}},
+           SDLK_SPACE, [](MillActions& m) { m.parts().hand.toggle_hold(); },
+           word(Word::help_hold))}},
       {HelpBlock::hand,
        "+  -",
        Word::help_push,
@@ -63,7 +93,7 @@ Mill::KeyRows Mill::hand_keys(bool left_handed) {
        "G",
        Word::help_plane,
        {item_key(
-           SDLK_g, [](Mill& m) { m.toggle_plane(); }, word(Word::help_plane))}},
+           SDLK_g, [](MillActions& m) { m.parts().hand.toggle_plane(); }, word(Word::help_plane))}},
       {HelpBlock::hand, word(Word::key_ctrl_arrows), Word::help_aim, {}},
       // for a haptic device: shown on the help page about pads
       {HelpBlock::hand,
@@ -72,30 +102,31 @@ Mill::KeyRows Mill::hand_keys(bool left_handed) {
        {item_key(SDLK_BACKSPACE, stop, word(Word::menu_stop)), twin_key(SDLK_PAUSE, stop),
         // held down; a device has a button for it, and the mouse needs none
         other_key(
-            SDLK_c, [](Mill& m) { m.lifts_.by_key = true; }, Word::real_does)}},
+            SDLK_c, [](MillActions& m) { m.parts().hand.lift_by_key(true); }, Word::real_does)}},
   };
 }
 
 // Back to a saved view; with Shift the present one is saved.
-Mill::KeyRow Mill::saved_view_keys() {
+KeyRow saved_view_keys() {
   KeyRow views = {HelpBlock::view, "F5  F6  F7  F8", Word::help_views, {}};
   for (int slot = 1; slot <= 4; ++slot) {
     const SDL_Keycode code = SDLK_F5 + slot - 1;
     views.keys.push_back(item_key(
-        code, [slot](Mill& m) { m.saved_view(slot, true); }, say(Word::menu_save_view, slot),
-        KMOD_SHIFT));
+        code, [slot](MillActions& m) { m.parts().view.saved(slot, true); },
+        say(Word::menu_save_view, slot), KMOD_SHIFT));
     views.keys.push_back(item_key(
-        code, [slot](Mill& m) { m.saved_view(slot, false); }, say(Word::view_shown, slot)));
+        code, [slot](MillActions& m) { m.parts().view.saved(slot, false); },
+        say(Word::view_shown, slot)));
   }
   return views;
 }
 
-Mill::KeyRows Mill::view_keys(bool left_handed) {
+KeyRows view_keys(bool left_handed) {
   constexpr double kArrow = 12;  // an arrow key counts as this many pixels of the mouse
   const Word turns = left_handed ? Word::key_left : Word::key_right;
   const auto turn = [turns](SDL_Keycode code, unsigned held, double right, double up) {
     return other_key(
-        code, [=](Mill& m) { m.turn_view(right, up, held != 0); },
+        code, [=](MillActions& m) { m.parts().view.turn(right, up, held != 0); },
         held != 0 ? Word::key_middle : turns, held);
   };
   return {
@@ -117,67 +148,81 @@ Mill::KeyRows Mill::view_keys(bool left_handed) {
        "F",
        Word::help_first_view,
        {item_key(
-           SDLK_f, [](Mill& m) { m.first_view(); }, word(Word::help_first_view))}},
+           SDLK_f, [](MillActions& m) { m.parts().view.first(); }, word(Word::help_first_view))}},
       saved_view_keys(),
       {HelpBlock::view,
        word(Word::key_focus),
        Word::help_focus,
        {item_key(
-            SDLK_F9, [](Mill& m) { m.deep_or_not(); }, word(Word::menu_deep), KMOD_SHIFT),
+            SDLK_F9, [](MillActions& m) { m.parts().view.deep_or_not(); }, word(Word::menu_deep),
+            KMOD_SHIFT),
         item_key(
-            SDLK_F11, [](Mill& m) { m.refocus(-1); }, word(Word::focus_nearer), KMOD_CTRL),
+            SDLK_F11, [](MillActions& m) { m.parts().view.refocus(-1); }, word(Word::focus_nearer),
+            KMOD_CTRL),
         item_key(
-            SDLK_F12, [](Mill& m) { m.refocus(1); }, word(Word::focus_farther), KMOD_CTRL)}},
+            SDLK_F12, [](MillActions& m) { m.parts().view.refocus(1); }, word(Word::focus_farther),
+            KMOD_CTRL)}},
       {HelpBlock::view,
        "F9  F11  F12",
        Word::help_looks,
        {item_key(
-            SDLK_F11, [](Mill& m) { m.take_view(ViewKind::free); }, word(Word::view_free),
+            SDLK_F11, [](MillActions& m) { take(m, ViewKind::free); }, word(Word::view_free),
             KMOD_SHIFT),
         item_key(
-            SDLK_F9, [](Mill& m) { m.take_view(ViewKind::microscope); },
+            SDLK_F9, [](MillActions& m) { take(m, ViewKind::microscope); },
             word(Word::view_microscope)),
         item_key(
-            SDLK_F11, [](Mill& m) { m.take_view(ViewKind::whole); }, word(Word::view_whole)),
+            SDLK_F11, [](MillActions& m) { take(m, ViewKind::whole); }, word(Word::view_whole)),
         item_key(
-            SDLK_F12, [](Mill& m) { m.take_view(ViewKind::endoscope); },
+            SDLK_F12, [](MillActions& m) { take(m, ViewKind::endoscope); },
             word(Word::view_endoscope))}},
+  };
+}
+
+// What is shown of the bone.
+KeyRows shown_keys() {
+  return {
       {HelpBlock::view,
        "V  B  N",
        Word::help_slices,
        {act_key(SDLK_v, Action::slices),
         item_key(
-            SDLK_b, [](Mill& m) { m.slices_->zoom(1); }, word(Word::menu_nearer)),
+            SDLK_b, [](MillActions& m) { m.parts().view.slices().zoom(1); },
+            word(Word::menu_nearer)),
         item_key(
-            SDLK_n, [](Mill& m) { m.slices_->zoom(-1); }, word(Word::menu_farther))}},
+            SDLK_n, [](MillActions& m) { m.parts().view.slices().zoom(-1); },
+            word(Word::menu_farther))}},
       {HelpBlock::view,
        "W",
        Word::help_window,
        {item_key(
-           SDLK_w, [](Mill& m) { m.note(m.slices_->next_window()); }, word(Word::help_window))}},
+           SDLK_w, [](MillActions& m) { m.note(m.parts().view.slices().next_window()); },
+           word(Word::help_window))}},
       {HelpBlock::view,
        "F4  Z",
        Word::help_names,
        {act_key(SDLK_F4, Action::structures),
         // the list pins with a click
         other_key(
-            SDLK_z, [](Mill& m) { m.pin_under_pointer(); }, Word::leaf_structures)}},
+            SDLK_z, [](MillActions& m) { m.parts().names.pin_under_pointer(); },
+            Word::leaf_structures)}},
       {HelpBlock::view,
        "L",
        Word::help_labels,
        {item_key(
-           SDLK_l, [](Mill& m) { m.toggle_labels(); }, word(Word::help_labels))}},
+           SDLK_l, [](MillActions& m) { m.parts().view.toggle_labels(); },
+           word(Word::help_labels))}},
       {HelpBlock::view,
        "T",
        Word::help_see_through,
        {item_key(
-            SDLK_t, [](Mill& m) { m.step_opacity(true); }, word(Word::menu_less_through),
-            KMOD_SHIFT),
+            SDLK_t, [](MillActions& m) { m.parts().view.step_opacity(true); },
+            word(Word::menu_less_through), KMOD_SHIFT),
         act_key(SDLK_t, Action::see_through)}},
   };
 }
 
-Mill::KeyRows Mill::tool_keys() {
+KeyRows tool_keys() {
   return {
       {HelpBlock::tools,
        "1  2  3  4  5",
@@ -195,12 +240,13 @@ Mill::KeyRows Mill::tool_keys() {
        Word::help_rack,
        {act_key(SDLK_7, Action::rack),
         item_key(
-            SDLK_8, [](Mill& m) { m.roll_tool(-1); }, word(Word::menu_roll_back), KMOD_SHIFT),
+            SDLK_8, [](MillActions& m) { m.parts().tools.roll(-1); }, word(Word::menu_roll_back),
+            KMOD_SHIFT),
         item_key(
-            SDLK_8, [](Mill& m) { m.lean_tool(m.grip_.leaned() > 1.56 ? -6 : 1); },
-            word(Word::menu_lean), KMOD_CTRL),
+            SDLK_8, [](MillActions& m) { m.parts().tools.lean_on(); }, word(Word::menu_lean),
+            KMOD_CTRL),
         item_key(
-            SDLK_8, [](Mill& m) { m.roll_tool(1); }, word(Word::menu_roll))}},
+            SDLK_8, [](MillActions& m) { m.parts().tools.roll(1); }, word(Word::menu_roll))}},
       {HelpBlock::tools,
        ",  .",
        Word::help_speeds,
@@ -214,17 +260,18 @@ Mill::KeyRows Mill::tool_keys() {
        "Ctrl + M",
        Word::help_pieces,
        {item_key(
-           SDLK_m, [](Mill& m) { m.toggle_menu(Menu::pieces); }, word(Word::help_pieces),
+           SDLK_m, [](MillActions& m) { m.toggle_menu(Menu::pieces); }, word(Word::help_pieces),
            KMOD_CTRL)}},
       {HelpBlock::tools, "D", Word::help_measure, {act_key(SDLK_d, Action::measure)}},
       {HelpBlock::tools,
        "X",
        Word::help_mirror,
        {item_key(
-            SDLK_x, [](Mill& m) { m.mirror_at_tip(); }, word(Word::menu_mirror_tip), KMOD_SHIFT),
+            SDLK_x, [](MillActions& m) { m.parts().tools.mirror_at_tip(); },
+            word(Word::menu_mirror_tip), KMOD_SHIFT),
         item_key(
-            SDLK_x, [](Mill& m) { m.mirror_next_plane(); }, word(Word::menu_mirror_plane),
-            KMOD_CTRL),
+            SDLK_x, [](MillActions& m) { m.parts().tools.mirror_next_plane(); },
+            word(Word::menu_mirror_plane), KMOD_CTRL),
         act_key(SDLK_x, Action::mirror)}},
       {HelpBlock::tools, "K", Word::help_kind, {act_key(SDLK_k, Action::kind)}},
       {HelpBlock::tools,
@@ -234,15 +281,15 @@ Mill::KeyRows Mill::tool_keys() {
   };
 }
 
-Mill::KeyRows Mill::program_keys() {
-  const auto done = [](Mill& m) { m.declare_done(); };
-  const auto answer = [](Mill& m) { m.answer_done(); };
+KeyRows program_keys() {
+  const auto done = [](MillActions& m) { m.declare_done(); };
+  const auto answer = [](MillActions& m) { m.answer_done(); };
   return {
       {HelpBlock::program,
        "Tab",
        Word::help_hide,
        {item_key(
-           SDLK_TAB, [](Mill& m) { m.hide_panels(); }, word(Word::help_hide))}},
+           SDLK_TAB, [](MillActions& m) { m.hide_panels(); }, word(Word::help_hide))}},
       {HelpBlock::program,
        "F10",
        Word::menu_all,
@@ -253,9 +300,11 @@ Mill::KeyRows Mill::program_keys() {
        Word::help_steps,
        {act_key(SDLK_o, Action::task),
         item_key(
-            SDLK_j, [](Mill& m) { m.step_done(); }, word(Word::menu_step_done)),
+            SDLK_j, [](MillActions& m) { m.parts().work_case.step_done(); },
+            word(Word::menu_step_done)),
         item_key(
-            SDLK_a, [](Mill& m) { m.light_target(); }, word(Word::menu_light))}},
+            SDLK_a, [](MillActions& m) { m.parts().work_case.light_target(); },
+            word(Word::menu_light))}},
       {HelpBlock::program,
        word(Word::key_ctrl_enter),
        Word::help_done,
@@ -274,44 +323,26 @@ Mill::KeyRows Mill::program_keys() {
        "9  0",
        Word::help_loudness,
        {item_key(
-            SDLK_9, [](Mill& m) { m.change_loudness(-1); }, word(Word::menu_quieter)),
+            SDLK_9, [](MillActions& m) { m.change_loudness(-1); }, word(Word::menu_quieter)),
         item_key(
-            SDLK_0, [](Mill& m) { m.change_loudness(1); }, word(Word::menu_louder))}},
+            SDLK_0, [](MillActions& m) { m.change_loudness(1); }, word(Word::menu_louder))}},
       {HelpBlock::program,
        "Esc  Q",
        Word::help_quit,
        // Esc also closes a page, which has a button for it
        {other_key(
-            SDLK_ESCAPE, [](Mill& m) { m.go_back(); }, Word::leave),
+            SDLK_ESCAPE, [](MillActions& m) { m.go_back(); }, Word::leave),
         act_key(SDLK_q, Action::leave)}},
   };
 }
 
-Mill::KeyRows Mill::key_rows(bool left_handed) {
+KeyRows key_rows(bool left_handed) {
   KeyRows all;
   for (KeyRows& part : std::vector<KeyRows>{hand_keys(left_handed), view_keys(left_handed),
-                                            tool_keys(), program_keys()})
+                                            shown_keys(), tool_keys(), program_keys()})
     std::move(part.begin(), part.end(), std::back_inserter(all));
   return all;
 }
-
-void Mill::key(const SDL_Keysym& pressed) {
-  // the dialog takes letters and arrows itself
-  if (pages_->exporting().choosing() && pressed.sym != SDLK_ESCAPE) return;
-  for (const KeyRow& row : key_rows(desk_.settings.left_handed))
-    for (const Key& key : row.keys)
-      if (key.code == pressed.sym && (key.held == 0 || (pressed.mod & key.held) != 0))
-        return key.does(*this);
-}
-
-std::vector<HelpRow> Mill::help_rows(bool left_handed) {
-  std::vector<HelpRow> rows;
-  for (const KeyRow& row : key_rows(left_handed))
-    if (!row.label.empty()) rows.push_back({row.block, row.label, row.says});
-  return rows;
-}
-
-namespace {
 
 // "Shift+F5"
 std::string key_name(SDL_Keycode code, unsigned held) {
@@ -326,10 +357,27 @@ bool in_views(HelpBlock block) { return block == HelpBlock::view; }
 
 }  // namespace
 
+bool press_key(MillActions& actions, const SDL_Keysym& pressed, bool left_handed) {
+  for (const KeyRow& row : key_rows(left_handed))
+    for (const Key& key : row.keys)
+      if (key.code == pressed.sym && (key.held == 0 || (pressed.mod & key.held) != 0)) {
+        key.does(actions);
+        return true;
+      }
+  return false;
+}
+
+std::vector<HelpRow> mill_help_rows(bool left_handed) {
+  std::vector<HelpRow> rows;
+  for (const KeyRow& row : key_rows(left_handed))
+    if (!row.label.empty()) rows.push_back({row.block, row.label, row.says});
+  return rows;
+}
+
 std::vector<KeyReach> key_reaches() {
   std::vector<KeyReach> all;
-  for (const Mill::KeyRow& row : Mill::key_rows(false))
-    for (const Mill::Key& key : row.keys) {
+  for (const KeyRow& row : key_rows(false))
+    for (const Key& key : row.keys) {
       KeyReach one;
       if (key.reach.twin && !all.empty()) one = all.back();
       one.key = key_name(key.code, key.held);
@@ -343,27 +391,20 @@ std::vector<KeyReach> key_reaches() {
   return all;
 }
 
-// The items of the menu are those keys of the table that have no button.
-void Mill::draw_menu_panel() {
-  if (!menu_) return;
-  if (*menu_ == Menu::rack) return draw_rack_panel();
-  if (*menu_ == Menu::pieces) return draw_pieces_panel();
+bool draw_key_menu(Ui& ui, MillActions& actions, bool views, bool left_handed) {
   std::vector<MenuItem> items;
-  std::vector<std::function<void(Mill&)>> does;
-  for (const KeyRow& row : key_rows(desk_.settings.left_handed))
+  std::vector<Does> does;
+  for (const KeyRow& row : key_rows(left_handed))
     for (const Key& key : row.keys) {
-      if (key.reach.item.empty() || in_views(row.block) != (*menu_ == Menu::views)) continue;
+      if (key.reach.item.empty() || in_views(row.block) != views) continue;
       std::string name = key.reach.item;
       if (name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
       items.push_back({std::move(name), key_name(key.code, key.held)});
       does.push_back(key.does);
     }
-  const MenuPressed pressed =
-      draw_menu(desk_.ui(), word(*menu_ == Menu::views ? Word::menu_views : Word::menu_all), items);
-  if (pressed.close) menu_.reset();
-  if (pressed.item) does[*pressed.item](*this);
+  const MenuPressed pressed = draw_menu(ui, word(views ? Word::menu_views : Word::menu_all), items);
+  if (pressed.item) does[*pressed.item](actions);
+  return pressed.close;
 }
-
-std::vector<HelpRow> mill_help_rows(bool left_handed) { return Mill::help_rows(left_handed); }
 
 }  // namespace burr::app

@@ -1,16 +1,15 @@
-// The station on the instructor's page: what it shows there, and what the instructor says.
+#include "window/mill/mill_station.h"
+
 #include <string>
 #include <utility>
 
 #include "burr/render/pick.h"
 #include "shared/word_names.h"
-#include "window/mill/mill.h"
 #include "window/station/station_link.h"
 
 namespace burr::app {
 
-// After a picture: it is offered to whoever looks, and words and marks come in.
-void Mill::talk() {
+void MillStation::talk() {
   StationLink* link = desk_.station.get();
   if (link == nullptr) return;
   render::Renderer& renderer = desk_.renderer();
@@ -18,8 +17,8 @@ void Mill::talk() {
   words.learner = desk_.station_learner;
   words.work = options_.title;
   words.mode = record::word_of(options_.mode);
-  if (steps_offered() && steps_.now() != nullptr)
-    words.step = steps_.now()->title.in(spoken().code);
+  if (case_.steps_offered() && case_.step() != nullptr)
+    words.step = case_.step()->title.in(spoken().code);
   words.seconds = static_cast<double>(row_.tick) / session_.settings().servo.rate_hz;
   words.force = row_.contact.force.norm();
   link->is(std::move(words));
@@ -35,16 +34,16 @@ void Mill::talk() {
           scene_, render::ray_through(then.camera, (*message.mark)[0] * then.width,
                                       (*message.mark)[1] * then.height, then.width, then.height));
     if (hit)
-      notes_.mark(hit->p, std::move(message.text));
+      marks_.mark(hit->p, std::move(message.text));
     else
-      notes_.say(message.text.empty() ? word(Word::instructor_missed) : std::move(message.text));
+      marks_.say(message.text.empty() ? word(Word::instructor_missed) : std::move(message.text));
   }
   // a line in the window says when the instructor begins to watch
   if (link->watched() != std::exchange(was_watched_, link->watched()) && was_watched_)
-    note(word(Word::instructor_watches));
+    notes_.note(word(Word::instructor_watches));
   if (std::string trouble = link->trouble();
-      trouble != std::exchange(station_trouble_, trouble) && !trouble.empty())
-    note(say(Word::instructor_away, trouble));
+      trouble != std::exchange(trouble_, trouble) && !trouble.empty())
+    notes_.note(say(Word::instructor_away, trouble));
 }
 
 }  // namespace burr::app

@@ -1,7 +1,7 @@
 // apps/burr/window/mill/press.h - the press of a hand that measures no force (button, space bar,
 // trigger, pedal): its depth, and the speed of the spindle.
 //
-// Plain state without events: mill_hand.cpp and mill_pads.cpp set it. Thread: main. Units: m;
+// Plain state without events: mill_hand.cpp sets it. Thread: main. Units: m;
 // shares 0..1.
 #pragma once
 

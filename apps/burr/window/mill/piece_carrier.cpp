@@ -1,12 +1,10 @@
-// Free pieces of bone on the page: noticed, taken, moved, put down.
-#include <SDL2/SDL.h>
+#include "window/mill/piece_carrier.h"
 
 #include <utility>
 
 #include "burr/workshop/second_tool.h"
 #include "burr/workshop/suction_hand.h"
-#include "shared/word_names.h"
-#include "window/mill/mill.h"
+#include "window/mill/pieces_panel.h"
 
 namespace burr::app {
 
@@ -24,46 +22,49 @@ PieceMode::Carrier carrier(const tick::TickRow& row, const device::DeviceSpec& d
 
 }  // namespace
 
-void Mill::look_at_pieces() {
-  const bool open = menu_ == Menu::pieces;
-  pieces_->suck(splinter_suction());
-  note(pieces_->look(open, row_));
-  carry_piece();
-  pieces_->show(scene_, open);
+PieceCarrier::PieceCarrier(const MillSite& site, const Pointer& pointer, MillTools& tools)
+    : desk_(site.desk),
+      session_(site.session),
+      scene_(site.scene),
+      hands_(site.hands),
+      options_(site.options),
+      row_(site.row),
+      notes_(site.notes),
+      over_(site.over),
+      pointer_(pointer),
+      tools_(tools) {}
+
+void PieceCarrier::begin() {
+  pieces_.emplace(session_, options_.lesson ? &*options_.lesson : nullptr);
 }
 
-// The tube of the other hand, or the one beside the tool (key 6): it takes splinters where it takes water.
-std::optional<sim::PieceMover::Suction> Mill::splinter_suction() const {
-  using workshop::SuctionHand;
-  if (has_piece()) return {};
-  sim::PieceMover::Suction by;
-  if (hands_.suction != nullptr && workshop::sucks(hands_.suction->now())) {
-    const tick::TickRow& row = hands_.suction->now();
-    by = {row.contact.proxy, row.tool.radius + sim::PieceMover::kSuctionReach, row.tool.radius,
-          true};
-    return by;
-  }
-  if (!suction_) return {};
-  by.mouth = scene_.burr.world_from_tool.p;
-  by.reach = (grip_.burr() ? scene_.burr.radius : grip_.reach()) + kSuctionBeside +
-             sim::PieceMover::kSuctionReach;
-  by.bore = SuctionHand::kRadius;
-  return by;
+void PieceCarrier::end() {
+  pieces_->end();
+  pieces_->show(scene_, false);
+  pieces_.reset();
+}
+
+void PieceCarrier::look() {
+  const bool open = over_.menu == Menu::pieces;
+  pieces_->suck(has_piece() ? std::nullopt : tools_.splinter_suction());
+  notes_.note(pieces_->look(open, row_));
+  carry();
+  pieces_->show(scene_, open);
 }
 
 // The button that drives a tool carries the piece. Meanwhile the tool of the first hand stands
 // still and only touches.
-void Mill::carry_piece() {
+void PieceCarrier::carry() {
   const bool rests = has_piece() && hands_.real != nullptr;
-  if (rests && (!mode_before_ || drill_.mode() != tick::ToolMode::touch)) {
-    mode_before_ = drill_.mode();  // or one that was chosen meanwhile: for afterwards
-    static_cast<void>(drill_.set_mode(tick::ToolMode::touch));
+  if (rests && (!mode_before_ || tools_.drill().mode() != tick::ToolMode::touch)) {
+    mode_before_ = tools_.drill().mode();  // or one that was chosen meanwhile: for afterwards
+    static_cast<void>(tools_.drill().set_mode(tick::ToolMode::touch));
     session_.command({tick::CommandKind::spindle_speed, 0});
   } else if (rests && row_.tool.full_speed != 0) {  // another tool or speed was chosen meanwhile
     session_.command({tick::CommandKind::spindle_speed, 0});
   } else if (!rests && mode_before_ && !(row_.hand.pedal > 0)) {  // not while the button is down
-    static_cast<void>(drill_.set_mode(*std::exchange(mode_before_, {})));
-    session_.command({tick::CommandKind::spindle_speed, drill_.full_speed()});
+    static_cast<void>(tools_.drill().set_mode(*std::exchange(mode_before_, {})));
+    session_.command({tick::CommandKind::spindle_speed, tools_.drill().full_speed()});
   }
   // from when it is taken, so before the hand can grab it
   if (hands_.real != nullptr) hands_.real->carry(has_piece());
@@ -77,27 +78,24 @@ void Mill::carry_piece() {
 }
 
 // While the piece is still on its way out of the bone, a tool in the other hand would cut.
-bool Mill::other_hand_carries() const {
+bool PieceCarrier::other_hand_carries() const {
   return hands_.suction != nullptr && hands_.suction->tool() == nullptr;
 }
 
-void Mill::draw_pieces_panel() {
+bool PieceCarrier::draw_panel(Ui& ui) {
   PiecesState state = pieces_->state();
   state.carries = hands_.real != nullptr || hands_.suction != nullptr;
-  const PiecesPressed pressed = draw_pieces(desk_.ui(), state);
+  const PiecesPressed pressed = draw_pieces(ui, state);
   if (pressed.typed) pieces_->set(pressed.mm, pressed.degrees);
-  if (pressed.take) {
-    lift();
-    pieces_->take(*pressed.take);
-  }
+  if (pressed.take) pieces_->take(*pressed.take);
   if (pressed.put_down) pieces_->put_down();
   if (pressed.leave) pieces_->leave();
-  if (pressed.close) menu_.reset();
+  if (pressed.close) over_.menu.reset();
+  return pressed.take.has_value();
 }
 
-// Keys that move the piece in the hand; false: this key is none of them.
-bool Mill::piece_key(const SDL_Keysym& pressed) {
-  if (!has_piece() || page_open()) return false;
+bool PieceCarrier::key(const SDL_Keysym& pressed) {
+  if (!has_piece() || over_.page()) return false;
   const bool fine = (pressed.mod & KMOD_SHIFT) != 0, turns = (pressed.mod & KMOD_CTRL) != 0;
   const render::Camera& camera = scene_.camera;
   const auto go = [&](const Vec3& way, const Vec3& axis) {
@@ -132,8 +130,7 @@ bool Mill::piece_key(const SDL_Keysym& pressed) {
   }
 }
 
-// With the button that mills, in the plane of the picture.
-void Mill::drag_piece(const SDL_MouseMotionEvent& motion) {
+void PieceCarrier::drag(const SDL_MouseMotionEvent& motion) {
   const Uint32 mills = desk_.settings.left_handed ? SDL_BUTTON_RMASK : SDL_BUTTON_LMASK;
   if ((motion.state & mills) == 0) return;
   const double pixel = scene_.camera.view_height() / pointer_.height();
