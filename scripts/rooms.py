@@ -78,7 +78,7 @@ ONLY = {
     ("sim", "edit"): {"piece_store.h", "piece_move.h", "bone_memory.h", "crossed.h"},
     ("workshop", "edit"): {"piece_store.h"},
     ("metrics", "tick"): {"rows.h"},
-    ("metrics", "tool"): {"burr_tool.h", "state.h", "tool_places.h", "shaped_tool.h"},
+    ("metrics", "tool"): {"burr_tool.h", "state.h", "cutting_places.h", "shaped_tool.h"},
     ("scoring", "record"): {"player.h", "course.h"},
     ("school", "record"): {"identity.h"},
     ("words", "scenario"): {"lesson.h"},

@@ -11,8 +11,8 @@
 #include "burr/surgeon/motion.h"
 #include "burr/workshop/mesh_shape.h"
 #include "common.h"
-#include "law.h"
-#include "rows.h"
+#include "python_law.h"
+#include "python_rows.h"
 
 namespace burr::python {
 namespace {

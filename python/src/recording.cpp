@@ -18,8 +18,8 @@
 #include "burr/workshop/recording.h"
 #include "burr/workshop/spared.h"
 #include "common.h"
-#include "report.h"
-#include "rows.h"
+#include "python_report.h"
+#include "python_rows.h"
 
 namespace burr::python {
 namespace {

@@ -31,10 +31,10 @@
 #include "burr/workshop/recording.h"
 #include "burr/workshop/spared.h"
 #include "common.h"
-#include "events.h"
-#include "eye.h"
-#include "law.h"
-#include "rows.h"
+#include "python_events.h"
+#include "python_eye.h"
+#include "python_law.h"
+#include "python_rows.h"
 #include "scene_setup.h"
 
 namespace burr::python {
@@ -263,10 +263,10 @@ class Session {
   void reset_to(const Snapshot* snapshot);
   py::dict outcome();
   void command(tick::CommandKind kind, double value = 0);
-  // Drawn off-screen; eye.h.
+  // Drawn off-screen; python_eye.h.
   py::array picture(const std::string& path, int width, int height);
   py::array patch(const py::object& p, int edge);
-  // Tells a function of Python what happens; events.h.
+  // Tells a function of Python what happens; python_events.h.
   void on(Wanted wanted);
   [[nodiscard]] Events* events() const { return events_.get(); }
   void observe(const py::object& what, double every_ms);

@@ -13,7 +13,7 @@
 #include "burr/tick/setting_table.h"
 #include "burr/tick/settings.h"
 #include "common.h"
-#include "events.h"
+#include "python_events.h"
 
 namespace burr::python {
 

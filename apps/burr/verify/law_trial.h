@@ -25,7 +25,7 @@ inline constexpr std::array<const char*, 6> kLawStages = {
     "its time was measured", "a simulated hand pressed with it"};
 using LawStage = std::atomic<int>;
 
-// A JSON object (law.cpp reads it), or {"error": sentence}.
+// A JSON object (verify_law.cpp reads it), or {"error": sentence}.
 [[nodiscard]] std::string try_law(const LawTrial& trial, LawStage& stage);
 
 }  // namespace burr::app

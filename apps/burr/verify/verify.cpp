@@ -17,10 +17,10 @@
 #include <tuple>
 
 #include "batch/row_command.h"
-#include "law.h"
 #include "page.h"
 #include "shared/interrupt.h"
 #include "shared/subcommand.h"
+#include "verify_law.h"
 
 namespace burr::app {
 namespace {

@@ -17,9 +17,9 @@
 #include "burr/math/vec3.h"
 #include "burr/record/player.h"
 #include "burr/tick/rows.h"
+#include "burr/tool/cutting_places.h"
 #include "burr/tool/shaped_tool.h"
 #include "burr/tool/state.h"
-#include "burr/tool/tool_places.h"
 
 namespace burr::metrics {
 

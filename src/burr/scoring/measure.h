@@ -16,10 +16,10 @@
 #include "burr/record/player.h"
 #include "burr/rt/thread.h"
 #include "burr/scenario/lesson.h"
-#include "burr/scoring/evidence.h"
 #include "burr/scoring/outcome.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/shown.h"
+#include "burr/scoring/workpiece.h"
 
 namespace burr::scoring {
 
@@ -29,14 +29,14 @@ namespace burr::scoring {
                               bool at_least);
 
 // An item about the shape of the cut: a planned axis, plane or cavity; none: it is about something else.
-[[nodiscard]] std::optional<Outcome> measure_shape(const Item& item, Evidence& scene);
+[[nodiscard]] std::optional<Outcome> measure_shape(const Item& item, Workpiece& scene);
 // An item about the manner of work; none: it is about something else.
 [[nodiscard]] std::optional<Outcome> measure_manner(const Item& item,
                                                     const metrics::Process& process,
                                                     const Figures& figures,
                                                     const scenario::CaseLesson& lesson);
 // An item that the two bones decide.
-[[nodiscard]] Outcome measure_bone(const Item& item, Evidence& scene);
+[[nodiscard]] Outcome measure_bone(const Item& item, Workpiece& scene);
 
 // The pass over the ticks of a recording, on a thread of its own: meanwhile the caller measures the bone. The scene is used by
 // the constructor only, and it says when that was stopped.
@@ -44,7 +44,7 @@ class RecordingPass {
  public:
   // The player is kept by reference, and is the pass's alone from start() to finish(). So are, as long as the pass lives, the
   // voxels of structures that the scene has.
-  RecordingPass(const Rubric& rubric, Evidence& scene, record::Player& player);
+  RecordingPass(const Rubric& rubric, Workpiece& scene, record::Player& player);
   // progress: kept until finish(); the other thread calls only its cancelled().
   void start(Progress& progress);
   // Waits for the end of the pass. Error: as of metrics::process_of().
@@ -60,7 +60,7 @@ class RecordingPass {
   std::optional<rt::Thread> thread_;  // last: joins before the rest goes
 };
 // The items that the recording decides, in the order of the rubric; `shown` gets the way of the burr.
-[[nodiscard]] std::vector<Outcome> measure_recording(const Rubric& rubric, Evidence& scene,
+[[nodiscard]] std::vector<Outcome> measure_recording(const Rubric& rubric, Workpiece& scene,
                                                      const record::Player& player,
                                                      metrics::Process process, Shown& shown);
 

@@ -58,7 +58,7 @@ std::vector<Spot> spots_at(const std::vector<math::Vec3>& places) {
   return chosen(all);
 }
 
-Outcome identified(const Item& item, Evidence& scene) {
+Outcome identified(const Item& item, Workpiece& scene) {
   const auto& cover = scene.cover(item.structure, item.region, kSamples);
   if (!cover) return not_assessable(item, cover.reason());
   metrics::IdentifiedSettings settings;
@@ -75,7 +75,7 @@ Outcome identified(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome skeletonised(const Item& item, Evidence& scene) {
+Outcome skeletonised(const Item& item, Workpiece& scene) {
   const auto& cover = scene.cover(item.structure, item.region, kSamples);
   if (!cover) return not_assessable(item, cover.reason());
   const auto thin = metrics::skeletonised(
@@ -92,7 +92,7 @@ Outcome skeletonised(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome intact_solid(const Item& item, Evidence& scene) {
+Outcome intact_solid(const Item& item, Workpiece& scene) {
   metrics::IntactSolidSettings settings;
   const double voxel = scene.before().grid().voxel;
   settings.v = std::max(item.limit("most_mm3"), 3 * voxel * voxel * voxel);
@@ -104,7 +104,7 @@ Outcome intact_solid(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome intact_plate(const Item& item, Evidence& scene) {
+Outcome intact_plate(const Item& item, Workpiece& scene) {
   const auto& cover = scene.cover(item.structure, item.region, kSamplesOfArea);
   if (!cover) return not_assessable(item, cover.reason());
   metrics::IntactPlateSettings settings;
@@ -118,7 +118,7 @@ Outcome intact_plate(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome no_cells(const Item& item, Evidence& scene) {
+Outcome no_cells(const Item& item, Workpiece& scene) {
   metrics::NoCellsSettings settings;
   settings.towards = scene.towards();
   settings.glass = scene.glass();
@@ -139,7 +139,7 @@ Outcome no_cells(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome opened(const Item& item, Evidence& scene) {
+Outcome opened(const Item& item, Workpiece& scene) {
   // the label of a room is that of its air
   const metrics::VoxelSet air = metrics::VoxelSet::of_air(
       scene.before(), scene.tissues(item.structure), scene.region(item.region));
@@ -157,7 +157,7 @@ Outcome opened(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome overhang(const Item& item, Evidence& scene) {
+Outcome overhang(const Item& item, Workpiece& scene) {
   metrics::OverhangSettings settings;
   settings.towards = scene.towards();
   settings.most_share = item.limit("share");
@@ -174,7 +174,7 @@ Outcome overhang(const Item& item, Evidence& scene) {
 }
 
 // removed: at least that share is gone; kept: at most
-Outcome removed(const Item& item, Evidence& scene, bool at_least) {
+Outcome removed(const Item& item, Workpiece& scene, bool at_least) {
   const auto& gone = scene.removed(item.region);
   if (!gone) return not_assessable(item, gone.reason());
   const double share = item.limit("share");
@@ -186,7 +186,7 @@ Outcome removed(const Item& item, Evidence& scene, bool at_least) {
 
 // filled: at least that share of the gap holds material now; filled_beside: of what was added, at most
 // that share lies outside of the gap
-Outcome filled(const Item& item, Evidence& scene, bool inside) {
+Outcome filled(const Item& item, Workpiece& scene, bool inside) {
   const auto full = metrics::filled_of(scene.before(), scene.after(), scene.region(item.region),
                                        {.grown = inside ? 0 : item.limit("off_mm")});
   if (!full) return not_assessable(item, full.reason());
@@ -239,7 +239,7 @@ Outcome decided(const Item& item, const metrics::Mark& mark, const char* what, b
   return out;
 }
 
-Outcome measure_bone(const Item& item, Evidence& scene) {
+Outcome measure_bone(const Item& item, Workpiece& scene) {
   const std::string_view how = item.how->name;
   if (!item.structure.empty() && scene.tissues(item.structure).empty())
     return not_assessable(

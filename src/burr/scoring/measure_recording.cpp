@@ -54,7 +54,7 @@ Outcome soft(const Item& item, const metrics::Process& process, double rate_hz) 
 }
 
 // How long a turning burr touched a structure of solid tissue.
-Outcome untouched(const Item& item, const metrics::Process& process, Evidence& scene,
+Outcome untouched(const Item& item, const metrics::Process& process, Workpiece& scene,
                   double rate_hz) {
   for (const metrics::Process::SolidResult& one : process.solid) {
     if (one.name != item.id) continue;
@@ -113,7 +113,8 @@ Outcome order(const Item& item, const StepOrder& found) {
                  false);
 }
 
-Figures figures_of(const metrics::Process& process, Evidence& scene, const record::Player& player) {
+Figures figures_of(const metrics::Process& process, Workpiece& scene,
+                   const record::Player& player) {
   std::vector<std::string> regions;
   for (const scenario::Step& step : scene.lesson().steps)
     if (!step.region.empty() && !step.adds) regions.push_back(step.region);
@@ -134,7 +135,7 @@ Figures figures_of(const metrics::Process& process, Evidence& scene, const recor
 
 }  // namespace
 
-RecordingPass::RecordingPass(const Rubric& rubric, Evidence& scene, record::Player& player)
+RecordingPass::RecordingPass(const Rubric& rubric, Workpiece& scene, record::Player& player)
     : player_(player) {
   const auto distance = [&](const std::string& structure) {
     return kept_.emplace_back(scene.distance(structure)).get();
@@ -188,7 +189,7 @@ bool needs_recording(const Item& item) {
   return item.part == Part::process || item.how->name == kSoft || item.how->name == kSolid;
 }
 
-std::vector<Outcome> measure_recording(const Rubric& rubric, Evidence& scene,
+std::vector<Outcome> measure_recording(const Rubric& rubric, Workpiece& scene,
                                        const record::Player& player, metrics::Process process,
                                        Shown& shown) {
   std::vector<Outcome> out;

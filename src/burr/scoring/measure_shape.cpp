@@ -18,7 +18,7 @@ constexpr double kLeastShape = 0.02;  // share of the region
 
 // Where next to nothing was removed there is no shape to measure; that is unmet, so that idle work does
 // not lose items from the denominator.
-std::optional<Outcome> idle(const Item& item, Evidence& scene) {
+std::optional<Outcome> idle(const Item& item, Workpiece& scene) {
   const auto& gone = scene.removed(item.region);
   if (!gone) return not_assessable(item, gone.reason());
   if (gone->share >= kLeastShape) return {};
@@ -48,7 +48,7 @@ Outcome without(const Item& item, const metrics::Assessed<Shape>& shape) {
   return none;
 }
 
-Outcome axis(const Item& item, Evidence& scene) {
+Outcome axis(const Item& item, Workpiece& scene) {
   const std::vector<math::Vec3>& course = scene.lesson().landmark(item.along)->points;
   const math::Vec3 whole = course.back() - course.front();
   const math::Vec3 inward = math::normalized(whole);
@@ -106,7 +106,7 @@ Outcome axis(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome plane(const Item& item, Evidence& scene) {
+Outcome plane(const Item& item, Workpiece& scene) {
   const auto& fit = scene.cut_at(item.plane, item.region);
   if (!fit) return without(item, fit);
   const std::string_view how = item.how->name;
@@ -124,7 +124,7 @@ Outcome plane(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome cavity(const Item& item, Evidence& scene) {
+Outcome cavity(const Item& item, Workpiece& scene) {
   const auto& shape = scene.cavity(item.region, item.within);
   if (!shape) return without(item, shape);
   const std::string_view how = item.how->name;
@@ -146,7 +146,7 @@ Outcome cavity(const Item& item, Evidence& scene) {
 }
 
 // The least distance of what was cut to a structure.
-Outcome clearance(const Item& item, Evidence& scene) {
+Outcome clearance(const Item& item, Workpiece& scene) {
   const auto points =
       metrics::new_surface(scene.before(), scene.after(), scene.region(item.region));
   const auto distance = scene.distance(item.structure);
@@ -166,7 +166,7 @@ Outcome clearance(const Item& item, Evidence& scene) {
   return out;
 }
 
-Outcome divided(const Item& item, Evidence& scene) {
+Outcome divided(const Item& item, Workpiece& scene) {
   const double enough = item.limit("share");
   const auto pieces =
       metrics::divided(scene.before(), scene.after(), scene.region(item.region), enough);
@@ -177,14 +177,14 @@ Outcome divided(const Item& item, Evidence& scene) {
 
 }  // namespace
 
-std::optional<Outcome> measure_shape(const Item& item, Evidence& scene) {
+std::optional<Outcome> measure_shape(const Item& item, Workpiece& scene) {
   const std::string_view how = item.how->name;
-  Outcome (*const measure)(const Item&, Evidence&) = how.starts_with("axis_")     ? axis
-                                                     : how.starts_with("plane_")  ? plane
-                                                     : how.starts_with("cavity_") ? cavity
-                                                     : how == "clearance"         ? clearance
-                                                     : how == "divided"           ? divided
-                                                                                  : nullptr;
+  Outcome (*const measure)(const Item&, Workpiece&) = how.starts_with("axis_")     ? axis
+                                                      : how.starts_with("plane_")  ? plane
+                                                      : how.starts_with("cavity_") ? cavity
+                                                      : how == "clearance"         ? clearance
+                                                      : how == "divided"           ? divided
+                                                                                   : nullptr;
   if (measure == nullptr) return {};
   if (auto nothing = idle(item, scene)) return nothing;
   return measure(item, scene);

@@ -53,7 +53,7 @@ struct Outcome {
   std::optional<double> value;
   double threshold = 0, error = 0;
 
-  // Evidence, where there is one.
+  // Workpiece, where there is one.
   std::optional<math::Vec3> place;    // world, LPS [m]
   std::optional<std::uint64_t> tick;  // of the recording
   std::vector<Spot> spots;            // at most kMostSpots; the bare ones are kept first

@@ -9,12 +9,12 @@
 
 #include "burr/base/check.h"
 #include "burr/metrics/region.h"
-#include "burr/scoring/evidence.h"
+#include "burr/scoring/workpiece.h"
 
 namespace burr::scoring {
 namespace {
 
-metrics::Region plan_of(const scenario::Reference& reference, Evidence& scene) {
+metrics::Region plan_of(const scenario::Reference& reference, Workpiece& scene) {
   metrics::Region all = scene.regions(reference.remove);
   for (const auto& [structure, thickness] : reference.leave)
     if (!scene.tissues(structure).empty())
@@ -64,7 +64,7 @@ Status fill(volume::Bone& bone, const metrics::Region& plan) {
 Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
                         const scenario::CaseLesson& lesson, Progress& progress) {
   BURR_CHECK(lesson.reference && !lesson.reference->remove.empty());
-  Evidence scene(before, before, lesson, progress);
+  Workpiece scene(before, before, lesson, progress);
   const metrics::Region plan = plan_of(*lesson.reference, scene);
   if (scene.stopped()) return error(Trouble::interrupted, "stopped");
   const volume::Grid& grid = before.grid();

@@ -6,9 +6,9 @@
 
 #include "burr/metrics/solidity.h"
 #include "burr/record/course.h"
-#include "burr/scoring/evidence.h"
 #include "burr/scoring/measure.h"
 #include "burr/scoring/show_regions.h"
+#include "burr/scoring/workpiece.h"
 
 namespace burr::scoring {
 namespace {
@@ -29,7 +29,7 @@ Result<Score> score(const Rubric& rubric, const scenario::CaseLesson& lesson,
                     Progress& progress) {
   if (!metrics::same_grid(before, after))
     return error("the bone before and the bone after are not the same bone: their grids differ");
-  Evidence scene(before, after, lesson, progress);
+  Workpiece scene(before, after, lesson, progress);
   Score out;
   std::optional<RecordingPass> pass;
   if (player != nullptr) {

@@ -12,7 +12,7 @@ void join(metrics::Region& all, metrics::Region one) {
 
 }  // namespace
 
-void show_regions(const Rubric& rubric, Evidence& scene, Shown& shown) {
+void show_regions(const Rubric& rubric, Workpiece& scene, Shown& shown) {
   const auto& reference = scene.lesson().reference;
   if (reference) {
     for (const std::string& name : reference->remove) join(shown.remove, scene.region(name));

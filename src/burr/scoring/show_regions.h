@@ -7,13 +7,13 @@
 // Thread: one at a time.
 #pragma once
 
-#include "burr/scoring/evidence.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/shown.h"
+#include "burr/scoring/workpiece.h"
 
 namespace burr::scoring {
 
 // Fills remove, keep and regions.
-void show_regions(const Rubric& rubric, Evidence& scene, Shown& shown);
+void show_regions(const Rubric& rubric, Workpiece& scene, Shown& shown);
 
 }  // namespace burr::scoring

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "burr/base/printable.h"
-#include "burr/scoring/evidence.h"
 #include "burr/scoring/measure.h"
 #include "burr/scoring/measure_list.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"
+#include "burr/scoring/workpiece.h"
 
 namespace burr::scoring {
 namespace {
@@ -97,7 +97,7 @@ Result<bool> step_done(const scenario::Step& step, const scenario::CaseLesson& l
   if (!step.done) return false;
   const Item item = item_of_step(*step.done);
   if (item.how == nullptr) return false;
-  Evidence scene(before, now, lesson, progress);
+  Workpiece scene(before, now, lesson, progress);
   const bool met = measure_bone(item, scene).verdict == Verdict::met;
   if (scene.stopped() || progress.cancelled()) return error(Trouble::interrupted, "stopped");
   return met;

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "burr/render/focus.h"
+#include "burr/render/gl/draw_target.h"
 #include "burr/render/gl/frame.h"
-#include "burr/render/gl/target.h"
 
 namespace burr::render::gl {
 

@@ -4,7 +4,7 @@
 // Thread: main, with the context current.
 #pragma once
 
-#include "burr/render/gl/target.h"
+#include "burr/render/gl/draw_target.h"
 #include "burr/render/stereo.h"
 
 namespace burr::render::gl {

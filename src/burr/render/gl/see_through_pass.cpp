@@ -3,8 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "burr/render/gl/draw_target.h"
 #include "burr/render/gl/shaders.h"
-#include "burr/render/gl/target.h"
 
 namespace burr::render::gl {
 

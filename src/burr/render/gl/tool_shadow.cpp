@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "burr/render/gl/draw_target.h"
 #include "burr/render/gl/shaders.h"
-#include "burr/render/gl/target.h"
 
 namespace burr::render::gl {
 

@@ -1,4 +1,4 @@
-#include "burr/tool/tool_places.h"
+#include "burr/tool/cutting_places.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "law.h"
+#include "verify_law.h"
 
 #include <fmt/core.h>
 #include <sys/mman.h>

@@ -1,4 +1,4 @@
-// render/gl/target.h - the textures of one picture, and the framebuffers around them.
+// render/gl/draw_target.h - the textures of one picture, and the framebuffers around them.
 //
 // The bone is drawn into textures of its own and kept: where only the tool moved, it is copied
 // instead of drawn. Memory: about 38 B per sample, and 4 to 8 B per pixel of the sheets. For use of

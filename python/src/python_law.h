@@ -1,4 +1,4 @@
-// python/src/law.h - a function of Python as a custom law, in sessions that are not in real time.
+// python/src/python_law.h - a function of Python as a custom law, in sessions that are not in real time.
 //
 // It is called on the thread that steps the session, with that thread's own state of Python. Its answers are recorded, so a replay
 // does not call it.

@@ -1,4 +1,4 @@
-#include "eye.h"
+#include "python_eye.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// scoring/evidence.h - what the items of a rubric look at: the bone before and after, and the names of
+// scoring/workpiece.h - what the items of a rubric look at: the bone before and after, and the names of
 // the case as voxels, distances and regions. For use of this room only.
 //
 // Each is made once. A distance can only fail because somebody stopped the work: stopped() then says
@@ -27,11 +27,11 @@
 
 namespace burr::scoring {
 
-class Evidence {
+class Workpiece {
  public:
   // All are kept by reference. The bones have the same grid.
-  Evidence(const volume::Bone& before, const volume::Bone& after,
-           const scenario::CaseLesson& lesson, Progress& progress)
+  Workpiece(const volume::Bone& before, const volume::Bone& after,
+            const scenario::CaseLesson& lesson, Progress& progress)
       : before_(before), after_(after), lesson_(lesson), progress_(progress) {}
 
   [[nodiscard]] const volume::Bone& before() const { return before_; }

@@ -1,6 +1,6 @@
-// python/src/report.h - the report of a recording, made in this process.
+// python/src/python_report.h - the report of a recording, made in this process.
 //
-// Thread: any; with pictures Python's main thread alone (eye.h). Reports are made one after the other: the language of the
+// Thread: any; with pictures Python's main thread alone (python_eye.h). Reports are made one after the other: the language of the
 // texts is one for the whole process.
 #pragma once
 

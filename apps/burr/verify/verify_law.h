@@ -1,4 +1,4 @@
-// apps/burr/verify/law.h - `burr verify law FILE.so`: tries a compiled custom law, and remembers that it passed.
+// apps/burr/verify/verify_law.h - `burr verify law FILE.so`: tries a compiled custom law, and remembers that it passed.
 #pragma once
 
 namespace CLI {

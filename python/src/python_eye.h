@@ -1,4 +1,4 @@
-// python/src/eye.h - pictures of a session, drawn off-screen in this process.
+// python/src/python_eye.h - pictures of a session, drawn off-screen in this process.
 //
 // The surface is made once and then mended where the bone changed, so a picture in each step of an
 // environment is possible. Thread: Python's main thread alone (SDL), while the session stands.

@@ -1,4 +1,4 @@
-#include "report.h"
+#include "python_report.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "burr/report/scored.h"
 #include "burr/report/self_marks.h"
 #include "burr/words/words.h"
-#include "eye.h"
+#include "python_eye.h"
 
 namespace burr::python {
 namespace {

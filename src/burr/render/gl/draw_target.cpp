@@ -1,4 +1,4 @@
-#include "burr/render/gl/target.h"
+#include "burr/render/gl/draw_target.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "law.h"
+#include "python_law.h"
 
 #include <fmt/format.h>
 

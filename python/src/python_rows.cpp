@@ -1,4 +1,4 @@
-#include "rows.h"
+#include "python_rows.h"
 
 #include <algorithm>
 #include <cstddef>

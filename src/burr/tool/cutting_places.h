@@ -1,4 +1,4 @@
-// tool/tool_places.h - places on the cutting parts of a tool, for distances from it.
+// tool/cutting_places.h - places on the cutting parts of a tool, for distances from it.
 //
 // Thread: any. Frame: of the tool. Units: m.
 #pragma once

@@ -1,4 +1,4 @@
-#include "burr/scoring/evidence.h"
+#include "burr/scoring/workpiece.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -39,14 +39,14 @@ std::vector<Vec3> part_of(const std::vector<Vec3>& curve, double from, double to
 
 }  // namespace
 
-std::vector<volume::TissueId> Evidence::tissues(const std::string& structure) const {
+std::vector<volume::TissueId> Workpiece::tissues(const std::string& structure) const {
   const scenario::Structure* found = lesson_.structure(structure);
   if (found == nullptr) return {};
   const std::vector<std::string_view> names(found->names.begin(), found->names.end());
   return metrics::tissues_named(before_.tissues(), names);
 }
 
-std::vector<volume::TissueId> Evidence::glass() const {
+std::vector<volume::TissueId> Workpiece::glass() const {
   std::vector<volume::TissueId> all;
   for (const scenario::Structure& one : lesson_.structures)
     if (one.glass)
@@ -54,24 +54,24 @@ std::vector<volume::TissueId> Evidence::glass() const {
   return all;
 }
 
-std::vector<Vec3> Evidence::towards() const {
+std::vector<Vec3> Workpiece::towards() const {
   return lesson_.approach.empty() ? std::vector<Vec3>{Vec3::UnitZ()} : lesson_.approach;
 }
 
-const metrics::VoxelSet& Evidence::voxels(const std::string& structure) {
+const metrics::VoxelSet& Workpiece::voxels(const std::string& structure) {
   const auto found = voxels_.find(structure);
   if (found != voxels_.end()) return found->second;
   return voxels_.emplace(structure, metrics::VoxelSet::of_tissues(before_, tissues(structure)))
       .first->second;
 }
 
-std::shared_ptr<const volume::DistanceTo> Evidence::distance(const std::string& structure) {
+std::shared_ptr<const volume::DistanceTo> Workpiece::distance(const std::string& structure) {
   auto& kept = distances_[structure];
   if (!kept) kept = made_distance(tissues(structure), kReach);
   return kept;
 }
 
-std::shared_ptr<const volume::DistanceTo> Evidence::distance_to_solid() {
+std::shared_ptr<const volume::DistanceTo> Workpiece::distance_to_solid() {
   if (to_solid_) return to_solid_;
   std::vector<volume::TissueId> solid;
   const auto& all = before_.tissues().tissues;
@@ -82,7 +82,7 @@ std::shared_ptr<const volume::DistanceTo> Evidence::distance_to_solid() {
   return to_solid_;
 }
 
-std::shared_ptr<const volume::DistanceTo> Evidence::made_distance(
+std::shared_ptr<const volume::DistanceTo> Workpiece::made_distance(
     const std::vector<volume::TissueId>& tissues, double reach) {
   volume::DistanceSettings settings;
   settings.reach = reach;
@@ -93,7 +93,7 @@ std::shared_ptr<const volume::DistanceTo> Evidence::made_distance(
                                                               : volume::DistanceTo());
 }
 
-Region Evidence::region_of(const scenario::Shape& shape) {
+Region Workpiece::region_of(const scenario::Shape& shape) {
   switch (shape.kind) {
     case ShapeKind::ball:
       return metrics::in_ball(shape.a.at, shape.radius);
@@ -117,7 +117,7 @@ Region Evidence::region_of(const scenario::Shape& shape) {
   return {};
 }
 
-Region Evidence::region(const std::string& name) {
+Region Workpiece::region(const std::string& name) {
   if (name.empty()) return {};
   const scenario::CaseRegion* found = lesson_.region(name);
   BURR_CHECK(found != nullptr && !found->add.empty());
@@ -129,16 +129,16 @@ Region Evidence::region(const std::string& name) {
   return all;
 }
 
-Region Evidence::regions(const std::vector<std::string>& names) {
+Region Workpiece::regions(const std::vector<std::string>& names) {
   Region all = region(names.front());
   for (std::size_t n = 1; n < names.size(); ++n)
     all = metrics::either(std::move(all), region(names[n]));
   return all;
 }
 
-const metrics::Assessed<metrics::Cover>& Evidence::cover(const std::string& structure,
-                                                         const std::string& region,
-                                                         std::size_t most_samples) {
+const metrics::Assessed<metrics::Cover>& Workpiece::cover(const std::string& structure,
+                                                          const std::string& region,
+                                                          std::size_t most_samples) {
   const auto key = std::tuple(structure, region, most_samples);
   const auto found = covers_.find(key);
   if (found != covers_.end()) return found->second;
@@ -153,15 +153,15 @@ const metrics::Assessed<metrics::Cover>& Evidence::cover(const std::string& stru
       .first->second;
 }
 
-const metrics::Assessed<metrics::Removed>& Evidence::removed(const std::string& region) {
+const metrics::Assessed<metrics::Removed>& Workpiece::removed(const std::string& region) {
   const auto found = removed_.find(region);
   if (found != removed_.end()) return found->second;
   return removed_.emplace(region, metrics::removed_of(before_, after_, this->region(region), {}))
       .first->second;
 }
 
-const metrics::Assessed<metrics::AxisFit>& Evidence::axis(const std::string& curve,
-                                                          const std::string& region) {
+const metrics::Assessed<metrics::AxisFit>& Workpiece::axis(const std::string& curve,
+                                                           const std::string& region) {
   const auto key = std::pair(curve, region);
   const auto found = axes_.find(key);
   if (found != axes_.end()) return found->second;
@@ -172,8 +172,8 @@ const metrics::Assessed<metrics::AxisFit>& Evidence::axis(const std::string& cur
       .first->second;
 }
 
-const metrics::Assessed<metrics::PlaneFit>& Evidence::cut_at(const std::string& plane,
-                                                             const std::string& region) {
+const metrics::Assessed<metrics::PlaneFit>& Workpiece::cut_at(const std::string& plane,
+                                                              const std::string& region) {
   const auto key = std::pair(plane, region);
   const auto found = planes_.find(key);
   if (found != planes_.end()) return found->second;
@@ -184,8 +184,8 @@ const metrics::Assessed<metrics::PlaneFit>& Evidence::cut_at(const std::string& 
       .first->second;
 }
 
-const metrics::Assessed<metrics::CavityShape>& Evidence::cavity(const std::string& region,
-                                                                const std::string& within) {
+const metrics::Assessed<metrics::CavityShape>& Workpiece::cavity(const std::string& region,
+                                                                 const std::string& within) {
   const auto key = std::pair(region, within);
   const auto found = cavities_.find(key);
   if (found != cavities_.end()) return found->second;
@@ -195,7 +195,7 @@ const metrics::Assessed<metrics::CavityShape>& Evidence::cavity(const std::strin
       .first->second;
 }
 
-double Evidence::worked() {
+double Workpiece::worked() {
   if (worked_ >= 0) return worked_;
   std::vector<std::string> names;
   if (lesson_.reference) names = lesson_.reference->remove;

@@ -1,4 +1,4 @@
-// python/src/rows.h - the rows of ticks as a structured array: names, units and order as in a
+// python/src/python_rows.h - the rows of ticks as a structured array: names, units and order as in a
 // recording (docs/use/recording_fields.md), three numbers of a vector in one field, quaternions w x
 // y z.
 //

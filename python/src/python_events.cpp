@@ -1,4 +1,4 @@
-#include "events.h"
+#include "python_events.h"
 
 #include <fmt/format.h>
 

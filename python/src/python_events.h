@@ -1,4 +1,4 @@
-// python/src/events.h - what happens in a session, told to functions of Python: touch, leave, removed,
+// python/src/python_events.h - what happens in a session, told to functions of Python: touch, leave, removed,
 // near, step_reached.
 //
 //     ticks (no GIL)              helper thread (takes the GIL)         Python
