@@ -6,7 +6,8 @@
 # which the compiler works is no part of what is compared. For the debugger it is: there an object names its sources.
 find_program(BURR_CCACHE ccache)
 if(BURR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # the last words: otherwise ccache does not cache files that use a precompiled header
+  # The last words: otherwise ccache does not cache files that use a precompiled header. For this it keeps an old object under the
+  # new text of a source that is edited while it compiles; CCACHE_RECACHE=1 cmake --build ... mends that.
   set(launcher env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_ABSSTDERR=1 CCACHE_DEPEND=1
     CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime)
   if(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")

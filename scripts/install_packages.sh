@@ -6,7 +6,8 @@
 # With BURR_REQUIRE_TOOLS=1 (CI), `test` also installs the large tools of section [tools].
 # Does nothing, and needs no network and no rights, if none is missing.
 #
-# A line of the list with a release in brackets ("name [bookworm]  # why") is for that release alone.
+# A line of the list with a release in brackets ("name [bookworm]  # why") is for that release alone; one with a program in braces
+# ("name {program}  # why") only for who does not have the program: node from elsewhere brings its own npm.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 
@@ -35,6 +36,7 @@ while IFS= read -r line; do
   [ "$section" = run ] || [ "$wanted" = test ] || continue
   [ "$section" != tools ] || [ "${BURR_REQUIRE_TOOLS:-0}" = 1 ] || continue
   package=${line%%[ #]*}
+  if [[ $line =~ ^[^#]*\{([a-z]+)\} ]] && command -v "${BASH_REMATCH[1]}" >/dev/null; then continue; fi
   if [[ $line =~ ^[^#]*\[([a-z]+)\] && ${BASH_REMATCH[1]} != "$release" ]]; then
     elsewhere+=("$package (only on ${BASH_REMATCH[1]}: ${line#*# })")
     continue

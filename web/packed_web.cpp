@@ -1,11 +1,22 @@
 // Packs without zstd's library, in zstd's format: runs of one byte become run-length blocks, all else
-// stays as it is (RFC 8878, 3.1.1). A recording is mostly such runs; any zstd can unpack it. unzstd.h
-// unpacks all of the format.
+// stays as it is (RFC 8878, 3.1.1). A recording is mostly such runs; any zstd can unpack it. To unpack, zstd itself is there,
+// in a module of its own that JavaScript holds (pages/common/codecs.mjs).
 // In place of record/mcap/packed.cpp.
+#include <emscripten.h>
+
 #include <algorithm>
 
 #include "burr/record/mcap/packed.h"
-#include "unzstd.h"
+
+// clang-format off
+EM_JS(int, burr_unzstd, (const void* packed, std::size_t packed_size, void* to, std::size_t size), {
+  const done = Module['codecs']['zstd'](HEAPU8.subarray(packed, packed + packed_size), size, (bytes) => {
+    HEAPU8.set(bytes, to);
+    return true;
+  });
+  return done === true ? 1 : 0;
+});
+// clang-format on
 
 namespace burr::record {
 namespace {
@@ -66,7 +77,12 @@ void Packer::pack(ByteSpan bytes, std::vector<std::uint8_t>& out) {
 
 bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 30;
-  return size < kMost && web::unzstd(packed, static_cast<std::size_t>(size), out);
+  // the most that zstd packs into a byte: a block of 128 kB that is one byte again and again takes four
+  constexpr std::uint64_t kMostPerByte = kMostBlock / 4;
+  out.clear();
+  if (packed.empty() || size >= kMost || size > packed.size() * kMostPerByte) return false;
+  out.resize(static_cast<std::size_t>(size));
+  return burr_unzstd(packed.data(), packed.size(), out.data(), out.size()) == 1;
 }
 
 }  // namespace burr::record

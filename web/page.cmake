@@ -71,7 +71,7 @@ target_link_options(burr_page PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -
 # The module of the page "replay", burr_replay: reads recordings. Who mills does not wait for it.
 set(web_dir ${PROJECT_SOURCE_DIR}/web)
 add_executable(burr_replay ${web_dir}/replay/replay_api.cpp ${web_dir}/bone_api.cpp ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp
-  ${web_dir}/unzstd.cpp ${web_dir}/whole_chunks_web.cpp ${web_dir}/no_cases_web.cpp ${web_dir}/coarse_mesh_web.cpp
+  ${web_dir}/whole_chunks_web.cpp ${web_dir}/no_cases_web.cpp ${web_dir}/coarse_mesh_web.cpp
   ${src}/render/soft_scene.cpp ${src}/render/skin_mesh.cpp ${src}/render/tool_mesh.cpp ${src}/workshop/out_piece.cpp
   ${src}/workshop/piece_look.cpp ${src}/workshop/tool_looks.cpp)
 target_include_directories(burr_replay PRIVATE ${web_dir})
@@ -109,7 +109,7 @@ burr_web_parts(burr_score_parts ${score} ${bones} ${src}/workshop/label_check.cp
 target_compile_options(burr_score_parts PRIVATE -Os)
 target_include_directories(burr_score_parts PRIVATE ${CMAKE_BINARY_DIR}/words ${PROJECT_SOURCE_DIR}/third_party)
 file(GLOB score_api CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/score/*.cpp)
-add_executable(burr_score ${score_api} ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp ${web_dir}/unzstd.cpp
+add_executable(burr_score ${score_api} ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp
   ${web_dir}/whole_chunks_web.cpp)
 target_include_directories(burr_score PRIVATE ${web_dir} ${CMAKE_BINARY_DIR}/words ${PROJECT_SOURCE_DIR}/third_party)
 target_link_libraries(burr_score PRIVATE burr_score_parts burr_record_parts burr_reading_parts burr_phantom_parts)
@@ -136,7 +136,7 @@ configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_materials.cpp.in ${CMAKE_BIN
 add_executable(burr_import ${import_api} ${readers} ${src}/io/voxels.cpp ${src}/io/value_groups.cpp ${src}/base/printable.cpp
   ${src}/base/text_file.cpp ${src}/scenario/recipe.cpp ${src}/record/bone_blob.cpp ${src}/record/grid_json.cpp
   ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
-  ${PROJECT_SOURCE_DIR}/web/crc32_web.cpp ${PROJECT_SOURCE_DIR}/web/packed_web.cpp ${PROJECT_SOURCE_DIR}/web/unzstd.cpp)
+  ${PROJECT_SOURCE_DIR}/web/crc32_web.cpp ${PROJECT_SOURCE_DIR}/web/packed_web.cpp)
 target_include_directories(burr_import PRIVATE ${PROJECT_SOURCE_DIR}/web ${PROJECT_SOURCE_DIR}/web/import
   ${PROJECT_SOURCE_DIR}/web/import/gaps ${PROJECT_SOURCE_DIR}/web/gaps ${PROJECT_SOURCE_DIR}/third_party)
 target_include_directories(burr_import SYSTEM PRIVATE ${headers})
@@ -149,10 +149,17 @@ target_link_options(burr_import PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2GB
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
-# the folder for a host: the module, the pages, the words
+# Codecs of others, from npm, as web/package-lock.json names them: fetched once, kept in the folder of the build.
+find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
+set(codecs ${CMAKE_BINARY_DIR}/web/codecs)
+add_custom_command(OUTPUT ${codecs}/licences.txt
+  COMMAND Python3::Interpreter ${web_dir}/codecs/take.py ${CMAKE_BINARY_DIR}/web/npm ${codecs}
+  DEPENDS ${web_dir}/codecs/take.py ${web_dir}/package.json ${web_dir}/package-lock.json ${PROJECT_SOURCE_DIR}/packaging/copyright
+  COMMENT "Codecs of others: ${codecs}" VERBATIM)
+
+# the folder for a host: the module, the pages, the words, the codecs
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/pages/*)
 file(GLOB word_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/words/*.toml ${PROJECT_SOURCE_DIR}/web/words/*.toml)
-find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 add_custom_command(OUTPUT ${site}/words.json
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${site}
   COMMAND ${CMAKE_COMMAND} -E copy_directory ${PROJECT_SOURCE_DIR}/web/pages ${site}
@@ -160,8 +167,9 @@ add_custom_command(OUTPUT ${site}/words.json
     ${CMAKE_BINARY_DIR}/web/burr_score.mjs ${CMAKE_BINARY_DIR}/web/burr_score.wasm
     ${CMAKE_BINARY_DIR}/web/burr_sound.wasm ${CMAKE_BINARY_DIR}/web/burr_replay.mjs ${CMAKE_BINARY_DIR}/web/burr_replay.wasm
     ${CMAKE_BINARY_DIR}/web/burr_import.mjs ${CMAKE_BINARY_DIR}/web/burr_import.wasm ${site}
+  COMMAND ${CMAKE_COMMAND} -E copy_directory ${codecs} ${site}/codecs
   COMMAND Python3::Interpreter ${web_dir}/case.py ${PROJECT_SOURCE_DIR}/cases/temporal_bone.toml
     ${PROJECT_SOURCE_DIR}/rubrics/temporal_bone.toml ${site}/case.json
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/web/words.py ${PROJECT_SOURCE_DIR} ${site}/words.json
-  DEPENDS burr_page burr_score burr_sound burr_import burr_replay ${pages} ${word_files} ${PROJECT_SOURCE_DIR}/web/words.py ${web_dir}/case.py COMMENT "The pages: ${site}" VERBATIM)
+  DEPENDS burr_page burr_score burr_sound burr_import burr_replay ${codecs}/licences.txt ${pages} ${word_files} ${PROJECT_SOURCE_DIR}/web/words.py ${web_dir}/case.py COMMENT "The pages: ${site}" VERBATIM)
 add_custom_target(site ALL DEPENDS ${site}/words.json)

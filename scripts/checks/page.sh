@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The page, burr in a browser: opens, mills, records, in Chromium without a screen (web/tests/page_test.py), and
 # has the course of a session: steps, score, report, sound (web/tests/course_test.py). The page is the
-# one that scripts/checks/portable.sh web has built.
+# one that scripts/checks/portable.sh web has built. First its codecs, by node (tests/web/page_codecs.h).
 #
 #     scripts/checks/page.sh BUILD [PICTURES]      PICTURES: a folder that keeps the screenshots
 #
@@ -9,7 +9,7 @@
 set -euo pipefail
 source "$(dirname "$0")/files.sh"
 build=$(realpath "$1")
-for tool in em++ node chromium; do
+for tool in em++ node npm chromium; do
   if ! command -v "$tool" >/dev/null; then
     echo "page: $tool is missing (section [tools] of scripts/packages.txt)"
     [ "${BURR_REQUIRE_TOOLS:-0}" != 1 ] || exit 1
@@ -27,5 +27,6 @@ diff -r build/web/site "$out/page"
 touch "$out/mine"
 if "$build/burr" web --out "$out" 2>"$out/said"; then echo "page: burr web wrote into a folder with other files"; exit 1; fi
 grep -q "holds other files" "$out/said"
+BURR_SITE=$out/page "$build/test_web" --gtest_brief=1 --gtest_filter='PageCodecs*'
 python3 web/tests/page_test.py "$out/page" "$build/burr" ${2:+"$2"}
 python3 web/tests/course_test.py "$out/page" "$build/burr" ${2:+"$2"}

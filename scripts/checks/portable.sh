@@ -5,7 +5,7 @@
 #     scripts/checks/portable.sh aarch64|windows|web BUILD [tests]
 #
 # aarch64: Debian's cross compiler and qemu-user. windows: Debian's mingw-w64 and wine; then also the unit tests. web:
-# Debian's emscripten and node. These are large: where they are missing, the check is left out (exit 77), unless
+# Debian's emscripten, node and npm. These are large: where they are missing, the check is left out (exit 77), unless
 # BURR_REQUIRE_TOOLS=1. `tests` compiles and compares nothing: it runs the unit tests of the core's rooms that
 # `portable.sh aarch64` has compiled.
 set -euo pipefail
@@ -16,7 +16,7 @@ tests=${3:-}
 case $where in
   aarch64) tools=(aarch64-linux-gnu-g++ qemu-aarch64) ;;
   windows) tools=(x86_64-w64-mingw32-g++-posix wine64) PATH=$PATH:/usr/lib/wine ;;  # where Debian's wine64 lies
-  web) tools=(em++ node) ;;
+  web) tools=(em++ node npm) ;;
   *) tests=unknown ;;
 esac
 case $where:$tests in

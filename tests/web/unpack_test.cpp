@@ -1,4 +1,5 @@
-// The page's own unpacking of compressed DICOM against GDCM, which packs here.
+// The page's unpacking of compressed DICOM against GDCM, which packs here: its own of run lengths and lossless JPEG, and CharLS
+// and OpenJPEG as the page calls them (PageCodecs).
 #include "web/import/unpack.h"
 
 #include <gtest/gtest.h>
@@ -27,11 +28,12 @@
 #include <random>
 #include <vector>
 
+#include "web/page_codecs.h"
+
 namespace burr::web {
 namespace {
 
 using gdcm::TransferSyntax;
-using Bytes = std::vector<std::uint8_t>;
 
 struct Picture {
   unsigned columns, rows, bits;
@@ -94,30 +96,73 @@ bool unpack(TransferSyntax::TSType syntax, const Bytes& bytes, const Picture& pi
             Unpacked& to) {
   to.columns = static_cast<int>(picture.columns);
   to.rows = static_cast<int>(picture.rows);
-  switch (syntax) {
-    case TransferSyntax::RLELossless:
-      return unpack_rle(bytes, picture.bits <= 8 ? 1 : 2, to);
-    case TransferSyntax::JPEGLosslessProcess14:
-    case TransferSyntax::JPEGLosslessProcess14_1:
-      return unpack_jpeg_lossless(bytes, to);
-    case TransferSyntax::JPEGLSLossless:
-    case TransferSyntax::JPEGLSNearLossless:
-      return unpack_jpeg_ls(bytes, to);
-    default:
-      return unpack_jpeg_2000(bytes, to);
-  }
+  if (syntax == TransferSyntax::RLELossless)
+    return unpack_rle(bytes, picture.bits <= 8 ? 1 : 2, to);
+  return unpack_jpeg_lossless(bytes, to);
 }
 
-int farthest(const Picture& picture, const Unpacked& back) {
-  int most = picture.values.size() == back.values.size() ? 0 : 1 << 20;
+Asked asked(TransferSyntax::TSType syntax, const Bytes& bytes, const Picture& picture) {
+  const bool ls =
+      syntax == TransferSyntax::JPEGLSLossless || syntax == TransferSyntax::JPEGLSNearLossless;
+  return {ls ? Codec::jpeg_ls : Codec::jpeg_2000, picture.columns, picture.rows, bytes};
+}
+
+int farthest(const Picture& picture, const std::vector<std::int32_t>& back) {
+  int most = picture.values.size() == back.size() ? 0 : 1 << 20;
   for (std::size_t n = 0; n < picture.values.size() && most < 1 << 20; ++n)
-    most = std::max(most, std::abs(back.values[n] - int{picture.values[n]}));
+    most = std::max(most, std::abs(back[n] - int{picture.values[n]}));
   return most;
 }
 
-constexpr TransferSyntax::TSType kLossless[] = {
-    TransferSyntax::RLELossless, TransferSyntax::JPEGLosslessProcess14_1,
-    TransferSyntax::JPEGLSLossless, TransferSyntax::JPEG2000Lossless};
+using Syntaxes = std::vector<TransferSyntax::TSType>;
+const Syntaxes kOwn = {TransferSyntax::RLELossless, TransferSyntax::JPEGLosslessProcess14_1};
+const Syntaxes kOfOthers = {TransferSyntax::JPEGLSLossless, TransferSyntax::JPEG2000Lossless};
+
+struct Case {
+  Picture picture;
+  TransferSyntax::TSType syntax;
+  Bytes bytes;
+  [[nodiscard]] std::string about() const {
+    return std::string(TransferSyntax::GetTSString(syntax)) + " " +
+           std::to_string(picture.columns) + " x " + std::to_string(picture.rows) + ", " +
+           std::to_string(picture.bits) + " bits";
+  }
+};
+
+// Pictures of many sizes, with all depths of bits.
+std::vector<Case> lossless_cases(const Syntaxes& syntaxes) {
+  std::mt19937 random(1);
+  constexpr unsigned kSizes[][2] = {{1, 1}, {7, 3}, {64, 64}, {65, 33}, {200, 131}, {512, 300}};
+  std::vector<Case> cases;
+  for (const auto& [columns, rows] : kSizes)
+    for (const unsigned bits : {8U, 10U, 12U, 16U})
+      for (int kind = 0; kind < 3; ++kind)
+        for (const auto syntax : syntaxes) {
+          // GDCM itself ends the program for some sizes
+          if (syntax == TransferSyntax::JPEG2000Lossless && rows < 32) continue;
+          if (syntax == TransferSyntax::RLELossless && columns % 8 != 0) continue;
+          Case one{made(columns, rows, bits, kind, random), syntax, {}};
+          one.bytes = packed(one.picture, syntax);
+          // GDCM packs no pictures of some few pixels
+          if (!one.bytes.empty()) cases.push_back(std::move(one));
+        }
+  return cases;
+}
+
+Bytes share_of(const Bytes& whole, double share) {
+  return {whole.begin(),
+          whole.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(whole.size()))};
+}
+
+// Some bytes are others: anywhere, or near the beginning.
+Bytes damaged(const Bytes& whole, int n, std::mt19937& random) {
+  Bytes bytes = whole;
+  const std::size_t near = n % 2 == 0 ? bytes.size() : std::min<std::size_t>(120, bytes.size());
+  for (int k = 0; k < 1 + n % 5; ++k) bytes[random() % near] = static_cast<std::uint8_t>(random());
+  return bytes;
+}
+
+constexpr double kShares[] = {0.0, 0.01, 0.2, 0.5, 0.9};
 
 class Unpack : public ::testing::Test {
  protected:
@@ -128,48 +173,57 @@ class Unpack : public ::testing::Test {
   }
 };
 
+class PageCodecs : public Unpack {
+ protected:
+  void SetUp() override {
+    if (site_of_page() == nullptr) GTEST_SKIP() << "scripts/checks/page.sh runs this with a site";
+  }
+};
+
 TEST_F(Unpack, LosslessPicturesAreWhatWasPacked) {
-  std::mt19937 random(1);
-  constexpr unsigned kSizes[][2] = {{1, 1}, {7, 3}, {64, 64}, {65, 33}, {200, 131}, {512, 300}};
-  for (const auto& [columns, rows] : kSizes)
-    for (const unsigned bits : {8U, 10U, 12U, 16U})
-      for (int kind = 0; kind < 3; ++kind)
-        for (const auto syntax : kLossless) {
-          // GDCM itself ends the program for some sizes
-          if (syntax == TransferSyntax::JPEG2000Lossless && rows < 32) continue;
-          if (syntax == TransferSyntax::RLELossless && columns % 8 != 0) continue;
-          const Picture picture = made(columns, rows, bits, kind, random);
-          const Bytes bytes = packed(picture, syntax);
-          if (bytes.empty()) continue;  // GDCM packs no pictures of some few pixels
-          Unpacked back;
-          const std::string about = std::string(TransferSyntax::GetTSString(syntax)) + " " +
-                                    std::to_string(columns) + " x " + std::to_string(rows) + ", " +
-                                    std::to_string(bits) + " bits, kind " + std::to_string(kind);
-          ASSERT_TRUE(unpack(syntax, bytes, picture, back)) << about;
-          EXPECT_EQ(farthest(picture, back), 0) << about;
-        }
+  const std::vector<Case> cases = lossless_cases(kOwn);
+  EXPECT_GT(cases.size(), 80U);
+  for (const Case& one : cases) {
+    Unpacked back;
+    ASSERT_TRUE(unpack(one.syntax, one.bytes, one.picture, back)) << one.about();
+    EXPECT_EQ(farthest(one.picture, back.values), 0) << one.about();
+  }
 }
 
-TEST_F(Unpack, LossyPicturesAreNearWhatWasPacked) {
+TEST_F(PageCodecs, LosslessPicturesAreWhatWasPacked) {
+  const std::vector<Case> cases = lossless_cases(kOfOthers);
+  EXPECT_GT(cases.size(), 100U);
+  std::vector<Asked> all;
+  all.reserve(cases.size());
+  for (const Case& one : cases) all.push_back(asked(one.syntax, one.bytes, one.picture));
+  const std::vector<Answer> answers = ask_page(all);
+  for (std::size_t n = 0; n < cases.size(); ++n) {
+    ASSERT_TRUE(answers[n].good) << cases[n].about();
+    EXPECT_EQ(farthest(cases[n].picture, answers[n].values()), 0) << cases[n].about();
+  }
+}
+
+TEST_F(PageCodecs, LossyPicturesAreNearWhatWasPacked) {
   std::mt19937 random(2);
   for (const unsigned bits : {8U, 12U, 16U}) {
     const Picture picture = made(200, 131, bits, 2, random);
     gdcm::JPEGLSCodec near;
     near.SetLossless(false);
     near.SetLossyError(3);
-    Unpacked back;
     const Bytes one = packed(picture, TransferSyntax::JPEGLSNearLossless, &near);
     ASSERT_FALSE(one.empty());
-    ASSERT_TRUE(unpack(TransferSyntax::JPEGLSNearLossless, one, picture, back));
-    EXPECT_LE(farthest(picture, back), 3) << bits;
-    EXPECT_GT(farthest(picture, back), 0) << bits;
     gdcm::JPEG2000Codec waves;
     waves.SetReversible(false);
     waves.SetRate(0, 4);
     const Bytes other = packed(picture, TransferSyntax::JPEG2000, &waves);
     ASSERT_FALSE(other.empty());
-    ASSERT_TRUE(unpack(TransferSyntax::JPEG2000, other, picture, back));
-    EXPECT_LE(farthest(picture, back), 1 << (bits - 4)) << bits;
+    const std::vector<Answer> back =
+        ask_page({asked(TransferSyntax::JPEGLSNearLossless, one, picture),
+                  asked(TransferSyntax::JPEG2000, other, picture)});
+    ASSERT_TRUE(back[0].good && back[1].good);
+    EXPECT_LE(farthest(picture, back[0].values()), 3) << bits;
+    EXPECT_GT(farthest(picture, back[0].values()), 0) << bits;
+    EXPECT_LE(farthest(picture, back[1].values()), 1 << (bits - 4)) << bits;
   }
 }
 
@@ -177,32 +231,51 @@ TEST_F(Unpack, LossyPicturesAreNearWhatWasPacked) {
 TEST_F(Unpack, DamagedPicturesDoNoHarm) {
   std::mt19937 random(3);
   const Picture picture = made(90, 70, 12, 2, random);
-  for (const auto syntax : kLossless) {
+  for (const auto syntax : kOwn) {
     const Bytes whole = packed(picture, syntax);
     ASSERT_FALSE(whole.empty());
     Unpacked back;
-    for (const double share : {0.0, 0.01, 0.2, 0.5, 0.9}) {
-      const Bytes cut(
-          whole.begin(),
-          whole.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(whole.size())));
-      EXPECT_FALSE(unpack(syntax, cut, picture, back))
+    for (const double share : kShares)
+      EXPECT_FALSE(unpack(syntax, share_of(whole, share), picture, back))
           << TransferSyntax::GetTSString(syntax) << " " << share;
-    }
     Picture other = picture;
     other.columns = 91;
     if (syntax != TransferSyntax::RLELossless) {
       EXPECT_FALSE(unpack(syntax, whole, other, back));
     }
-    for (int n = 0; n < 400; ++n) {
-      Bytes damaged = whole;
-      const std::size_t near =
-          n % 2 == 0 ? damaged.size() : std::min<std::size_t>(120, damaged.size());
-      for (int k = 0; k < 1 + n % 5; ++k)
-        damaged[random() % near] = static_cast<std::uint8_t>(random());
-      if (unpack(syntax, damaged, picture, back)) {
+    for (int n = 0; n < 400; ++n)
+      if (unpack(syntax, damaged(whole, n, random), picture, back)) {
         EXPECT_EQ(back.values.size(), picture.values.size());
       }
+  }
+}
+
+// The same, and what comes after damage is read as if nothing had been.
+TEST_F(PageCodecs, DamagedPicturesDoNoHarm) {
+  std::mt19937 random(3);
+  const Picture picture = made(90, 70, 12, 2, random);
+  for (const auto syntax : kOfOthers) {
+    const Bytes whole = packed(picture, syntax);
+    ASSERT_FALSE(whole.empty());
+    std::vector<Asked> all;
+    for (const double share : kShares)
+      all.push_back(asked(syntax, share_of(whole, share), picture));
+    Picture other = picture;
+    other.columns = 91;
+    all.push_back(asked(syntax, whole, other));
+    const std::size_t refused = all.size();
+    for (int n = 0; n < 400; ++n) all.push_back(asked(syntax, damaged(whole, n, random), picture));
+    all.push_back(asked(syntax, whole, picture));
+    const std::vector<Answer> answers = ask_page(all);
+    for (std::size_t n = 0; n < answers.size(); ++n) {
+      if (n < refused) {
+        EXPECT_FALSE(answers[n].good) << TransferSyntax::GetTSString(syntax) << " " << n;
+      }
+      if (answers[n].good) {
+        EXPECT_EQ(answers[n].values().size(), picture.values.size());
+      }
     }
+    EXPECT_EQ(farthest(picture, answers.back().values()), 0);
   }
 }
 

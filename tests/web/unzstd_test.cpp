@@ -1,16 +1,14 @@
-// The page's own unpacking of zstd against zstd's library.
-#include "web/unzstd.h"
-
+// The page's unpacking of zstd against zstd's library.
 #include <gtest/gtest.h>
 #include <zstd.h>
 
 #include <random>
 #include <vector>
 
+#include "web/page_codecs.h"
+
 namespace burr::web {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 Bytes packed(const Bytes& bytes, int level, bool with_sum = false) {
   ZSTD_CCtx* zstd = ZSTD_createCCtx();
@@ -59,29 +57,46 @@ Bytes made(int kind, std::size_t size, std::mt19937& random) {
   return out;
 }
 
-TEST(Unzstd, UnpacksWhatZstdPacks) {
+Asked asked(const Bytes& small, std::size_t size) {
+  return {Codec::zstd, static_cast<std::uint32_t>(size), 0, small};
+}
+
+class PageCodecsZstd : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (site_of_page() == nullptr) GTEST_SKIP() << "scripts/checks/page.sh runs this with a site";
+  }
+};
+
+TEST_F(PageCodecsZstd, UnpacksWhatZstdPacks) {
   std::mt19937 random(7);
+  std::vector<Bytes> wanted;
+  std::vector<Asked> all;
   for (int n = 0; n < 400; ++n) {
-    const Bytes bytes =
-        made(n % 6, n < 100 ? static_cast<std::size_t>(n) : random() % 300'000, random);
-    const Bytes small = packed(bytes, 1 + n % 12, n % 3 == 0);
-    Bytes back;
-    ASSERT_TRUE(unzstd(small, bytes.size(), back)) << n;
-    ASSERT_EQ(back, bytes) << n;
+    wanted.push_back(
+        made(n % 6, n < 100 ? static_cast<std::size_t>(n) : random() % 300'000, random));
+    all.push_back(asked(packed(wanted.back(), 1 + n % 12, n % 3 == 0), wanted.back().size()));
+  }
+  const std::vector<Answer> back = ask_page(all);
+  for (std::size_t n = 0; n < wanted.size(); ++n) {
+    ASSERT_TRUE(back[n].good) << n;
+    ASSERT_EQ(back[n].bytes, wanted[n]) << n;
   }
 }
 
-TEST(Unzstd, RefusesAnotherSize) {
+TEST_F(PageCodecsZstd, RefusesAnotherSize) {
   std::mt19937 random(1);
   const Bytes bytes = made(2, 5000, random), small = packed(bytes, 3);
-  Bytes back;
-  EXPECT_FALSE(unzstd(small, bytes.size() - 1, back));
-  EXPECT_FALSE(unzstd(small, bytes.size() + 1, back));
-  EXPECT_FALSE(unzstd({}, 0, back));
+  const std::vector<Answer> back =
+      ask_page({asked(small, bytes.size() - 1), asked(small, bytes.size() + 1), asked({}, 1),
+                asked(small, UINT32_MAX), asked(small, bytes.size())});
+  for (std::size_t n = 0; n < 4; ++n) EXPECT_FALSE(back[n].good) << n;
+  EXPECT_TRUE(back[4].good);
 }
 
-TEST(Unzstd, DamagedBytesGiveNoMoreThanTheSize) {
+TEST_F(PageCodecsZstd, DamagedBytesGiveNoMoreThanTheSize) {
   std::mt19937 random(3);
+  std::vector<Asked> all;
   for (int n = 0; n < 2000; ++n) {
     const Bytes bytes = made(n % 6, 1 + random() % 4000, random);
     Bytes small = packed(bytes, 1 + n % 12);
@@ -89,13 +104,20 @@ TEST(Unzstd, DamagedBytesGiveNoMoreThanTheSize) {
       small.resize(random() % small.size());
     else
       small[random() % small.size()] ^= static_cast<std::uint8_t>(1U << random() % 8);
-    Bytes back;
-    if (!unzstd(small, bytes.size(), back)) {
-      EXPECT_LE(back.size(), bytes.size());
-    } else {
-      EXPECT_EQ(back.size(), bytes.size());
+    all.push_back(asked(small, bytes.size()));
+  }
+  const std::vector<Answer> back = ask_page(all);
+  std::size_t refused = 0;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    refused += back[n].good ? 0 : 1;
+    if (back[n].good) {
+      EXPECT_EQ(back[n].bytes.size(), all[n].columns);
+    }
+    if (n % 4 == 0) {
+      EXPECT_FALSE(back[n].good) << n;  // it is cut off
     }
   }
+  EXPECT_GT(refused, 500U);
 }
 
 }  // namespace

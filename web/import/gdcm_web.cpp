@@ -78,6 +78,13 @@ std::vector<std::vector<std::uint8_t>> frames_of(const Small& small, std::size_t
   return all;
 }
 
+// Where the codestream of a JPEG 2000 picture begins: some are files with boxes around it.
+std::size_t codestream_at(Bytes bytes) {
+  constexpr std::uint8_t kStart[] = {0xFF, 0x4F, 0xFF, 0x51};
+  const auto at = std::search(bytes.begin(), bytes.end(), std::begin(kStart), std::end(kStart));
+  return static_cast<std::size_t>(at - bytes.begin());
+}
+
 bool unpack(std::string_view syntax, Bytes bytes, int width, burr::web::Unpacked& to) {
   if (!syntax.starts_with("1.2.840.10008.1.2."))
     burr::web::leave_out("no_codec", std::string(syntax).c_str());
@@ -85,7 +92,8 @@ bool unpack(std::string_view syntax, Bytes bytes, int width, burr::web::Unpacked
   if (kind == "5") return burr::web::unpack_rle(bytes, width, to);
   if (kind == "4.57" || kind == "4.70") return burr::web::unpack_jpeg_lossless(bytes, to);
   if (kind == "4.80" || kind == "4.81") return burr::web::unpack_jpeg_ls(bytes, to);
-  if (kind == "4.90" || kind == "4.91") return burr::web::unpack_jpeg_2000(bytes, to);
+  if (kind == "4.90" || kind == "4.91")
+    return burr::web::unpack_jpeg_2000(bytes.subspan(codestream_at(bytes)), to);
   burr::web::leave_out("no_codec", std::string(syntax).c_str());
 }
 

@@ -1,8 +1,9 @@
 // web/import/unpack.h - unpacks compressed pictures of DICOM: JPEG lossless, JPEG-LS, JPEG 2000, RLE. On a desktop GDCM does
-// this, for which Debian has no library for WebAssembly. Pictures have one channel, as burr's reader has checked.
+// this, for which Debian has no library for WebAssembly. JPEG-LS and JPEG 2000 are CharLS and OpenJPEG (codecs_web.cpp), the
+// others are ours. Pictures have one channel, as burr's reader has checked.
 //
 // No input makes these read or write beyond what they are given, or take more memory than some times the picture. They throw
-// nothing. Thread-safe: yes, they share nothing.
+// nothing, but for codecs that are not loaded yet.
 #pragma once
 
 #include <cstddef>

@@ -364,7 +364,8 @@ def exam(browser, site, downloads):
 SAMPLES = """(async (recording, ticks) => {
   const {compile, start} = await import('../common/burr.js');
   const {default: make} = await import('../burr_replay.mjs');
-  const burr = await start(await compile('burr_replay.wasm'), make);
+  const {load_codecs} = await import('../common/codecs.mjs');
+  const burr = await start(await compile('burr_replay.wasm'), make, await load_codecs('zstd'));
   burr.module.FS.writeFile('/burr.mcap', Uint8Array.from(atob(recording), (one) => one.charCodeAt(0)));
   const path = new TextEncoder().encode('/burr.mcap\\0');
   if (burr.with_bytes([path], (at) => burr.core_open(at)) === 0) return burr.text(burr.core_why());

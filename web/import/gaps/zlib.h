@@ -1,4 +1,4 @@
-// What burr's readers use of zlib, which Debian has no library of for WebAssembly. Its code: web/import/inflate.cpp.
+// What burr's readers use of zlib, which Debian has no library of for WebAssembly. pako does it: web/import/codecs_web.cpp.
 // Only reading, and only Z_NO_FLUSH.
 #pragma once
 
@@ -15,7 +15,7 @@ struct z_stream {  // NOLINT(readability-identifier-naming): zlib's name
   Bytef* next_out;
   uInt avail_out;
   unsigned long total_out;
-  struct InflateState* state;
+  int number;  // of its stream in JavaScript
 };
 
 enum { Z_OK = 0, Z_STREAM_END = 1, Z_DATA_ERROR = -3, Z_MEM_ERROR = -4, Z_BUF_ERROR = -5 };

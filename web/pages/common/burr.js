@@ -18,9 +18,11 @@ export function trouble(why, ...parts) {
   return Object.assign(new Error([why, ...parts].join(' ')), {why, parts});
 }
 
-// Starts it; gives its functions without their underscore, and memory. make: of another module than the page's.
-export async function start(compiled, make = make_page) {
+// Starts it; gives its functions without their underscore, and memory. make: of another module than the page's; codecs: what it
+// calls (codecs.mjs).
+export async function start(compiled, make = make_page, codecs = {}) {
   const module = await make({
+    codecs,
     instantiateWasm(imports, done) {
       WebAssembly.instantiate(compiled, imports).then((instance) => done(instance, compiled));
       return {};

@@ -4,6 +4,7 @@
 //     page -> worker   read {files}, plan {recipe}, make {recipe}
 //     worker -> page   plan {plan}, bone {blob, plan}, refused {text} or {why, parts}
 import load from '../burr_import.mjs';
+import {compiled, load_codecs} from './codecs.mjs';
 
 let module = null;
 
@@ -30,7 +31,6 @@ function with_text(text, call) {
 const refuse = () => self.postMessage({kind: 'refused', text: module.UTF8ToString(module._import_why())});
 
 async function read(files, recipe) {
-  module = await load();
   const names = new Set();
   const blobs = files.map((data, n) => {
     let name = data.name.replaceAll('/', '_');  // of several folders, two files may have one name
@@ -38,10 +38,24 @@ async function read(files, recipe) {
     names.add(name);
     return {name, data};
   });
-  module.FS.mkdir('/scan');
-  module.FS.mount(module.WORKERFS, {blobs}, '/scan');
   const path = blobs.length === 1 ? `/scan/${blobs[0].name}` : '/scan';
-  if (with_text(path, module._import_read) === 0) return refuse();
+  // A codec is loaded when a file needs it; the module has ended there, so a new one reads from the start. There are few.
+  const reader = await compiled('burr_import.wasm');
+  for (const codecs = {};;) {
+    module = await load({codecs, instantiateWasm(imports, done) {
+      WebAssembly.instantiate(reader, imports).then((instance) => done(instance, reader));
+      return {};
+    }});
+    module.FS.mkdir('/scan');
+    module.FS.mount(module.WORKERFS, {blobs}, '/scan');
+    try {
+      if (with_text(path, module._import_read) === 0) return refuse();
+      break;
+    } catch (what) {
+      if (!what?.codec || what.codec in codecs) throw what;
+      Object.assign(codecs, await load_codecs(what.codec));
+    }
+  }
   plan(recipe);
 }
 

@@ -7,6 +7,7 @@
 //                      dressed {words, steps, questions, marks}, marked {marks} or {why}, page {html} or {why}, broken {text}
 import make from '../burr_score.mjs';
 import {compile, start} from '../common/burr.js';
+import {load_codecs} from '../common/codecs.mjs';
 
 const kBrick = 1028;  // bytes; web::ChangedBrick
 
@@ -30,7 +31,7 @@ async function take(data) {
   if (data.kind === 'open') {
     work = data.work;
     compiled ??= await compile('burr_score.wasm');
-    burr ??= await start(compiled, make);
+    burr ??= await start(compiled, make, await load_codecs('zstd'));
     marked = false;
     burr.with_texts([data.language], burr.score_speak);
     if (!burr.with_texts([data.mode], (mode) => burr.score_open(mode, data.voxel))) throw new Error(why());

@@ -12,6 +12,7 @@
 // anew with another bone: the worker stays, so nothing is fetched again. Each bone has a number, `work`, and each message
 // carries it, so that the page can leave what came of the bone before.
 import {start, trouble} from '../common/burr.js';
+import {load_codecs} from '../common/codecs.mjs';
 import {Skin, tissues} from '../common/skin.js';
 
 const kMostTicks = 50;    // in one beat
@@ -106,7 +107,8 @@ async function open(from) {
   done = left_out = 0;
   clear_times();
   burr = skin = null;  // an older bone gives its memory back
-  const mine = await start(from.compiled);
+  // a bone of the user's own scan comes packed
+  const mine = await start(from.compiled, undefined, from.own ? await load_codecs('zstd') : {});
   if (work !== from.work) return;  // another one was asked for meanwhile
   burr = mine;
   if (from.own) {

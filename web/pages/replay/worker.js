@@ -7,11 +7,12 @@
 // Each file has a number, `work`, and each message carries it, so that the page can leave what came of the file before.
 import make from '../burr_replay.mjs';
 import {compile, start} from '../common/burr.js';
+import {load_codecs} from '../common/codecs.mjs';
 import {Skin, surface, tissues} from '../common/skin.js';
 
 const kPath = '/in/burr.mcap';
 
-const reader = compile('burr_replay.wasm');
+const reader = Promise.all([compile('burr_replay.wasm'), load_codecs('zstd')]);
 let burr = null, skin = null;
 let work = 0;  // number of the file
 let sent = new Set();  // tools and pieces whose surface the page has
@@ -36,7 +37,8 @@ async function open({file, bone, work: mine}) {
   work = mine;
   burr = skin = null;  // an older file gives its memory back
   sent = new Set();
-  const fresh = await start(await reader, make);
+  const [compiled, codecs] = await reader;
+  const fresh = await start(compiled, make, codecs);
   if (work !== mine) return;  // another one was chosen meanwhile
   burr = fresh;
   // the file stays where it is: of it only what a moment needs is read (File.slice)
