@@ -243,6 +243,8 @@ BonePtr load(const std::string& source, double voxel_mm, const py::object& iso,
   recipe.series = series;
   recipe.allow_missing = allow_missing;
   recipe.as_it_is = as_it_is;
+  if (smooth >= 0 && scenario::is_phantom(source))
+    raise("a phantom is a formula without noise: `smooth` is for scans; leave it out");
   recipe.smooth = smooth;
   recipe.read_seconds = read_seconds;
   recipe.read_memory_mb = read_memory_mb;

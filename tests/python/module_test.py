@@ -136,7 +136,8 @@ class Bones(unittest.TestCase):
                     (lambda: burr.Bone.load(file, spacing_mm=(1, 1, -1)), "spacing_mm is out of range"),
                     (lambda: burr.Bone.load(file, iso=3000), "choose another level with `iso`"),
                     (lambda: burr.Bone.load(file, region="1,2"), '`region`: "1,2" is not six whole numbers'),
-                    (lambda: burr.Bone.load("phantom:tooth", region="0,9,0,9,0,9"), "only `voxel_mm` and `materials` apply")]:
+                    (lambda: burr.Bone.load("phantom:tooth", region="0,9,0,9,0,9"), "only `voxel_mm` and `materials` apply"),
+                    (lambda: burr.Bone.load("phantom:tooth", smooth=0), "`smooth` is for scans")]:
                 with self.assertRaises(burr.Error) as raised:
                     call()
                 self.assertIn(sentence, str(raised.exception))

@@ -40,7 +40,7 @@ struct Answer {
 
 inline const char* site_of_page() { return std::getenv("BURR_SITE"); }
 
-// One answer for each that is asked.
+// Unpacks each of `all` in the page's codecs, by node; the answers are in the same order.
 inline std::vector<Answer> ask_page(const std::vector<Asked>& all) {
   const test::Folder folder;
   const std::string asked = folder / "asked", answered = folder / "answered";

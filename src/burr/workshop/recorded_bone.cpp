@@ -100,7 +100,8 @@ std::shared_ptr<const volume::Greys> greys_of(const record::Player& player,
                                               Progress& progress) {
   const auto print = record::fingerprint(given.source);
   if (!print || *print != player.info().volume.source_fingerprint) return nullptr;
-  scenario::BoneRecipe answered = given;  // what was asked when the recording was made
+  scenario::BoneRecipe answered =
+      given;  // doubts about the scan are answered as when the session was recorded
   answered.allow_missing = player.info().volume.recipe.allow_missing;
   answered.as_it_is = player.info().volume.recipe.as_it_is;
   answered.check_values = player.info().volume.recipe.check_values;

@@ -1,5 +1,5 @@
 // apps/burr/window/mill/mill_case.h - the case on the page for milling: its steps, the sentence about
-// technique, the warning of an injury, what the recording is told of the user, whether the work is
+// technique, the warning of an injury, what goes into the recording about the user, whether the work is
 // done, and what the mode of the session allows.
 //
 //     MillCase work(bone, rate_hz, scene, options, row, notes);
