@@ -117,14 +117,14 @@ EMSCRIPTEN_KEEPALIVE int core_row_size() { return sizeof(tick::TickRow); }
 // Of a tissue of the bone: its kind (volume::TissueKind), colour, and how much it bleeds. nullptr: there is
 // no tissue of this number. Its name: core_tissue_name().
 EMSCRIPTEN_KEEPALIVE const double* core_tissue(int number) {
-  static double told[5];
+  static double out[5];
   const auto& tissues = shown->bone->tissues().tissues;
   if (static_cast<std::size_t>(number) >= tissues.size()) return nullptr;
   const volume::Tissue& tissue = tissues[static_cast<std::size_t>(number)];
-  told[0] = static_cast<double>(tissue.kind);
-  std::copy(tissue.colour.begin(), tissue.colour.end(), told + 1);
-  told[4] = tissue.bleeds;
-  return told;
+  out[0] = static_cast<double>(tissue.kind);
+  std::copy(tissue.colour.begin(), tissue.colour.end(), out + 1);
+  out[4] = tissue.bleeds;
+  return out;
 }
 EMSCRIPTEN_KEEPALIVE const char* core_tissue_name(int number) {
   return shown->bone->tissues().tissues[static_cast<std::size_t>(number)].name.c_str();

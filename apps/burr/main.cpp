@@ -77,8 +77,8 @@ int unheard(int trouble) {
 // Flushes the output and returns the exit code: 0 only if all output was written.
 int end(int code) {
   errno = 0;
-  const bool told = std::fflush(stdout) == 0 && std::cout.flush().good();
-  return code == 0 && !told ? unheard(errno) : code;
+  const bool written = std::fflush(stdout) == 0 && std::cout.flush().good();
+  return code == 0 && !written ? unheard(errno) : code;
 }
 
 }  // namespace

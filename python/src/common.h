@@ -75,7 +75,7 @@ class Work final : public Progress {
   py::object call_;
   std::thread::id mine_ = std::this_thread::get_id();
   mutable std::atomic<bool> stop_ = false;
-  mutable Clock::time_point looked_ = Clock::now(), told_ = looked_;
+  mutable Clock::time_point looked_ = Clock::now(), reported_ = looked_;
   mutable std::optional<py::error_already_set> raised_;
 };
 

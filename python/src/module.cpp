@@ -57,8 +57,8 @@ void add_errors(py::module_& module) {
 void Work::report(double fraction, std::string_view stage) {
   if (call_.is_none() || std::this_thread::get_id() != mine_ || stop_) return;
   const auto now = Clock::now();
-  if (now - told_ < kTell) return;
-  told_ = now;
+  if (now - reported_ < kTell) return;
+  reported_ = now;
   const py::gil_scoped_acquire mine;
   try {
     const py::object said = call_(fraction, py::str(stage.data(), stage.size()));

@@ -375,9 +375,9 @@ void Events::stop(bool tell) {
   helper_->stop(tell);
 }
 
-int Events::visit(visitproc told, void* arg) const {
+int Events::visit(visitproc visitor, void* arg) const {
   for (const py::object& call : helper_->calls)
-    if (const int stop = told(call.ptr(), arg); stop != 0) return stop;
+    if (const int stop = visitor(call.ptr(), arg); stop != 0) return stop;
   return 0;
 }
 

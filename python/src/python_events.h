@@ -80,7 +80,7 @@ class Events {
   // GIL. Calls the functions for the events that wait (or drops these), then ends the thread. No function is called afterwards.
   void stop(bool tell);
   // GIL; for Python's collector of garbage.
-  int visit(visitproc told, void* arg) const;
+  int visit(visitproc visitor, void* arg) const;
   void forget();
 
  private:

@@ -685,14 +685,14 @@ double mode_named(const std::string& name) {
 }
 
 // Python's collector finds functions that hold the object which holds them.
-int visit_all(const Session& session, visitproc told, void* arg) {
-  if (const int stop = told(session.observer().ptr(), arg); stop != 0) return stop;
-  return session.events() != nullptr ? session.events()->visit(told, arg) : 0;
+int visit_all(const Session& session, visitproc visit, void* arg) {
+  if (const int stop = visit(session.observer().ptr(), arg); stop != 0) return stop;
+  return session.events() != nullptr ? session.events()->visit(visit, arg) : 0;
 }
-int visit_all(const SceneSetup& scene, visitproc told, void* arg) {
-  if (const int stop = told(scene.law.ptr(), arg); stop != 0) return stop;
+int visit_all(const SceneSetup& scene, visitproc visit, void* arg) {
+  if (const int stop = visit(scene.law.ptr(), arg); stop != 0) return stop;
   for (const Wanted& wanted : scene.wanted)
-    if (const int stop = told(wanted.call.ptr(), arg); stop != 0) return stop;
+    if (const int stop = visit(wanted.call.ptr(), arg); stop != 0) return stop;
   return 0;
 }
 void forget(Session& session) {
@@ -715,12 +715,12 @@ py::custom_type_setup seen_by_collector() {
   return py::custom_type_setup([](PyHeapTypeObject* made) {
     PyTypeObject& type = made->ht_type;
     type.tp_flags |= Py_TPFLAGS_HAVE_GC;
-    type.tp_traverse = [](PyObject* self, visitproc told, void* arg) -> int {
-      if (const int stop = told(reinterpret_cast<PyObject*>(Py_TYPE(self)), arg); stop != 0)
+    type.tp_traverse = [](PyObject* self, visitproc visit, void* arg) -> int {
+      if (const int stop = visit(reinterpret_cast<PyObject*>(Py_TYPE(self)), arg); stop != 0)
         return stop;
       const Type* held = held_by<Type>(self);
       if (held == nullptr) return 0;
-      return visit_all(*held, told, arg);
+      return visit_all(*held, visit, arg);
     };
     type.tp_clear = [](PyObject* self) -> int {
       if (Type* held = held_by<Type>(self)) forget(*held);

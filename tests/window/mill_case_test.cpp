@@ -106,7 +106,7 @@ TEST_F(MillCases, DoneThatEndsTheSessionIsAskedOnce) {
   using Done = MillCase::Done;
   options_.done_ends = true;
   MillCase work = made(record::Mode::practise);
-  EXPECT_EQ(work.declare_done(false), Done::told);
+  EXPECT_EQ(work.declare_done(false), Done::answered);
   EXPECT_EQ(read(), word(Word::done_nothing)) << "there is nothing to mark";
   row_.ledger.removed = 1e-9;
   EXPECT_EQ(work.declare_done(false), Done::asks);
@@ -119,14 +119,14 @@ TEST_F(MillCases, DoneThatEndsTheSessionIsAskedOnce) {
 
 TEST_F(MillCases, DoneThatEndsNothingIsDeclaredAndTakenBack) {
   MillCase work = made(record::Mode::free);
-  EXPECT_EQ(work.declare_done(false), MillCase::Done::told);
+  EXPECT_EQ(work.declare_done(false), MillCase::Done::answered);
   EXPECT_TRUE(diary_.declared_done());
   EXPECT_EQ(read(), word(Word::done_declared));
-  EXPECT_EQ(work.declare_done(false), MillCase::Done::told);
+  EXPECT_EQ(work.declare_done(false), MillCase::Done::answered);
   EXPECT_FALSE(diary_.declared_done());
   EXPECT_EQ(read(), word(Word::done_taken_back));
   options_.diary = nullptr;
-  EXPECT_EQ(work.declare_done(false), MillCase::Done::told);
+  EXPECT_EQ(work.declare_done(false), MillCase::Done::answered);
   EXPECT_EQ(read(), word(Word::done_not_recorded));
 }
 

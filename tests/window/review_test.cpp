@@ -192,13 +192,13 @@ TEST_F(ReviewWindow, EnterGoesOnAndAReportThatIsNotWaitedForIsWritten) {
        {"the marks", [&] { return desk_->page == Page::review && told("items met"); },
         [] { click(125, 683); }},
        {"it writes", [&] { return told(word(Word::review_writes)); }, [] { press(SDLK_ESCAPE); }},
-       {"the start page", on(Page::start), [&] { goes_on = desk_->told; }},
-       {"written", [&] { return desk_->told != goes_on; },
+       {"the start page", on(Page::start), [&] { goes_on = desk_->news; }},
+       {"written", [&] { return desk_->news != goes_on; },
         [&] {
-          written = desk_->told;
+          written = desk_->news;
           click(400, 638);
         }},
-       {"the line is clicked away", [&] { return desk_->told.empty(); },
+       {"the line is clicked away", [&] { return desk_->news.empty(); },
         [] { press(SDLK_ESCAPE); }}});
   work_by(record::Mode::learn, std::move(steps));
   ::setenv("PATH", path.c_str(), 1);
@@ -228,9 +228,9 @@ TEST_F(ReviewWindow, TheSessionOfALearnerComesIntoTheStoreByItself) {
               {"a picture", looks(5), [] { press(SDLK_RETURN); }},
               {"the end", on(Page::review), [] { press(SDLK_ESCAPE); }},
               {"the start page", on(Page::start), nullptr},
-              {"it waits", [&] { return !desk_->told.empty(); },
+              {"it waits", [&] { return !desk_->news.empty(); },
                [&] {
-                 told_of = desk_->told;
+                 told_of = desk_->news;
                  press(SDLK_ESCAPE);
                }}});
   work_by(record::Mode::exam, std::move(steps));

@@ -25,7 +25,7 @@ using nlohmann::json;
 struct Import {
   io::Scan scan;
   std::vector<std::uint8_t> blob;
-  std::string why, told;
+  std::string why, plan;
 };
 Import& import() {
   static Import one;
@@ -56,13 +56,13 @@ scenario::BoneRecipe recipe_of(const char* text) {
 
 const char* tell(const importing::ImportSummary& plan) {
   const auto of = [](const auto& v) { return json{v.x(), v.y(), v.z()}; };
-  json told = {
+  json out = {
       {"format", plan.format}, {"scan", of(plan.scan_size)},    {"spacing_mm", of(plan.spacing_mm)},
       {"labels", plan.labels}, {"hounsfield", plan.hounsfield}, {"low", plan.low},
       {"high", plan.high},     {"size", of(plan.size)},         {"voxel_mm", plan.voxel_mm},
       {"iso", plan.iso},       {"memory_mb", plan.memory_mb},   {"notices", plan.notices}};
-  import().told = told.dump(-1, ' ', false, json::error_handler_t::replace);
-  return import().told.c_str();
+  import().plan = out.dump(-1, ' ', false, json::error_handler_t::replace);
+  return import().plan.c_str();
 }
 
 }  // namespace

@@ -130,16 +130,16 @@ EMSCRIPTEN_KEEPALIVE const web::Given* core_tool_part(int part) {
 // The piece that is out of the bone: number of its shape (0: none is out), then how it was moved from where it came
 // free: x, y, z [m], unit quaternion w, x, y, z.
 EMSCRIPTEN_KEEPALIVE const double* core_piece() {
-  static double told[8];
+  static double out[8];
   const Replay& c = *core;
   const math::Pose& by = c.piece.by;
-  told[0] = c.piece.mesh == nullptr ? 0 : c.piece_number;
-  for (int n = 0; n < 3; ++n) told[1 + n] = by.p[n];
-  told[4] = by.q.w();
-  told[5] = by.q.x();
-  told[6] = by.q.y();
-  told[7] = by.q.z();
-  return told;
+  out[0] = c.piece.mesh == nullptr ? 0 : c.piece_number;
+  for (int n = 0; n < 3; ++n) out[1 + n] = by.p[n];
+  out[4] = by.q.w();
+  out[5] = by.q.x();
+  out[6] = by.q.y();
+  out[7] = by.q.z();
+  return out;
 }
 // Its surface where it came free, render::SkinVertex.
 EMSCRIPTEN_KEEPALIVE const web::Given* core_piece_skin() {

@@ -30,10 +30,10 @@ async function view_of_bones(kit) {
 }
 
 // Parts of the recording, one after the other: a long session is some hundred megabytes.
-async function recording_of(kit, line, told) {
+async function recording_of(kit, line, progress) {
   const parts = [];
   for (let from = 0; from < line.bytes;) {
-    told(from / line.bytes);
+    progress(from / line.bytes);
     const part = await kit.ask("replay/recording?" + new URLSearchParams({ session: line.session, from }));
     if (part.size === 0) throw new Error(kit.say("recording_cut"));
     parts.push(part);
@@ -63,10 +63,10 @@ class Scene {
   // From the first word to the first picture. A trouble is written where the picture would be.
   async open(line) {
     try {
-      const told = share => this.tell(this.kit.say("fetching", { percent: Math.round(100 * share) }));
-      told(0);
+      const progress = share => this.tell(this.kit.say("fetching", { percent: Math.round(100 * share) }));
+      progress(0);
       const parts = await view_of_bones(this.kit);
-      const file = await recording_of(this.kit, line, told);
+      const file = await recording_of(this.kit, line, progress);
       const bone = line.bone_bytes > 0
         ? new Uint8Array(await (await this.kit.ask("replay/bone?" + new URLSearchParams({ session: line.session }))).arrayBuffer()) : null;
       while (!this.canvas.isConnected) {
@@ -205,12 +205,12 @@ class Scene {
 
 // ---- the time line
 
-// The line as the server has it, when it is ready; told(share, stage) meanwhile.
-async function line_of(kit, session, told) {
+// The line as the server has it, when it is ready; progress(share, stage) meanwhile.
+async function line_of(kit, session, progress) {
   for (;;) {
     const line = await kit.ask("replay?" + new URLSearchParams({ session }));
     if (line.seconds !== undefined) return line;
-    told(line.share);
+    progress(line.share);
     await new Promise(go => setTimeout(go, 400));
   }
 }

@@ -63,7 +63,7 @@ struct Course {
 std::unique_ptr<Course> course;
 std::string why, text;
 
-const char* told(const ordered_json& what) {
+const char* as_text(const ordered_json& what) {
   text = what.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   return text.c_str();
 }
@@ -249,28 +249,28 @@ EMSCRIPTEN_KEEPALIVE const char* score_words() {
           return std::string_view(kKeys[n]).starts_with(start);
         }))
       out[kKeys[n]] = words::word(static_cast<words::Word>(n));
-  return told(out);
+  return as_text(out);
 }
 
-EMSCRIPTEN_KEEPALIVE const char* score_steps() { return told(json_of_steps()); }
+EMSCRIPTEN_KEEPALIVE const char* score_steps() { return as_text(json_of_steps()); }
 
 // These three give what is to be written into the recording.
 EMSCRIPTEN_KEEPALIVE const char* score_begin() {
-  return told(json_of(steps_offered() ? course->steps.begin() : guidance::Steps::Events{}));
+  return as_text(json_of(steps_offered() ? course->steps.begin() : guidance::Steps::Events{}));
 }
 EMSCRIPTEN_KEEPALIVE const char* score_done(int measured) {
-  return told(json_of(steps_offered() ? course->steps.declare_done(measured != 0)
-                                      : guidance::Steps::Events{}));
+  return as_text(json_of(steps_offered() ? course->steps.declare_done(measured != 0)
+                                         : guidance::Steps::Events{}));
 }
 EMSCRIPTEN_KEEPALIVE const char* score_choose(int n) {
-  return told(json_of(steps_offered() ? course->steps.choose(static_cast<std::size_t>(n))
-                                      : guidance::Steps::Events{}));
+  return as_text(json_of(steps_offered() ? course->steps.choose(static_cast<std::size_t>(n))
+                                         : guidance::Steps::Events{}));
 }
 
 // What the current step is about, to be lit: {step, rings: [{at [m], radius [m], name}], tissues, colour}; null: nothing may be.
 EMSCRIPTEN_KEEPALIVE const char* score_light() {
   const scenario::Step* now = course->steps.now();
-  if (now == nullptr || !course->allowed.target) return told(nullptr);
+  if (now == nullptr || !course->allowed.target) return as_text(nullptr);
   ordered_json out = {{"step", course->steps.id(*course->steps.current())}};
   out["rings"] = ordered_json::array();
   for (const guidance::Ring& ring : guidance::rings_of(*now, course->lesson))
@@ -279,7 +279,7 @@ EMSCRIPTEN_KEEPALIVE const char* score_light() {
                             {"name", ring.name.empty() ? "" : words::place_name(ring.name)}});
   out["tissues"] = guidance::lit_tissues(*now, course->lesson, course->now->tissues());
   out["colour"] = guidance::kLitColour;
-  return told(out);
+  return as_text(out);
 }
 
 // Bricks that have changed, one after the other: core_api.cpp's Changed.
@@ -315,7 +315,7 @@ EMSCRIPTEN_KEEPALIVE const char* score_questions() {
       one["items"].push_back({{"id", item.id}, {"text", item.text}, {"gate", item.gate}});
     out.push_back(std::move(one));
   }
-  return told(out);
+  return as_text(out);
 }
 
 // Scores the recording kFile. It takes seconds.
@@ -328,7 +328,7 @@ EMSCRIPTEN_KEEPALIVE const char* score_marks() {
   out["report"] = json_of(*course->report);
   out["score"] =
       ordered_json::parse(report::score_json(course->scored->judged.rubric, course->scored->score));
-  return told(out);
+  return as_text(out);
 }
 
 // The report as one HTML page, with a picture of the bone at the end.

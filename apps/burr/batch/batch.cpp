@@ -179,7 +179,7 @@ Result<std::vector<const ManifestRow*>> rows_to_do(const Batch& batch, const Sha
   return rows;
 }
 
-Status told(const Options& options, const Tally& tally) {
+Status print_tally(const Options& options, const Tally& tally) {
   if (options.json)
     fmt::print("{}\n", json_line(nlohmann::json{{"shard", options.shard},
                                                 {"rows", tally.rows},
@@ -307,7 +307,7 @@ Status run(const Options& options) {
     longest = std::max(longest, seconds_since(start));
   }
   if (tally.left == 0) progress().report(1, "rows");
-  return told(options, tally);
+  return print_tally(options, tally);
 }
 
 void add(CLI::App& app, Todo& todo) {

@@ -59,8 +59,8 @@ const CLI::Option* option_of(const CLI::App& app, const std::string& word) {
 class Offer {
  public:
   explicit Offer(std::string begun) : begun_(std::move(begun)) {}
-  void word(const std::string& word, const std::string& told = {}) {
-    if (word.starts_with(begun_)) out_.push_back(told.empty() ? word : word + "\t" + told);
+  void word(const std::string& word, const std::string& help = {}) {
+    if (word.starts_with(begun_)) out_.push_back(help.empty() ? word : word + "\t" + help);
   }
   void files(std::string_view suffixes) {
     out_.push_back(suffixes.empty() ? ":files" : fmt::format(":files {}", suffixes));

@@ -14,7 +14,7 @@ namespace {
 struct Example {
   std::string_view command;  // "bench tick"; the line begins with it
   std::string_view rest;     // what follows the command
-  std::string_view told;
+  std::string_view help;
 };
 
 // Several lines of one command stand together, the simplest first.
@@ -177,7 +177,7 @@ std::string footer_of(const std::string& command) {
   std::string text = "\nexamples:\n";
   for (const Example& example : kExamples)
     if (example.command == command)
-      text += fmt::format("  {:<{}}   {}\n", line(example), wide, example.told);
+      text += fmt::format("  {:<{}}   {}\n", line(example), wide, example.help);
   return text;
 }
 

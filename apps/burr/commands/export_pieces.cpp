@@ -81,7 +81,7 @@ Status export_pieces(const volume::Bone& bone, const std::string& out,
         force);
     if (!allowed) return allowed;
   }
-  const nlohmann::ordered_json told =
+  const nlohmann::ordered_json moves =
       nlohmann::ordered_json::parse(report::pieces_json(report::moved_pieces(store, bone)));
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (std::size_t n = 0; n < bodies.size(); ++n) {
@@ -99,13 +99,13 @@ Status export_pieces(const volume::Bone& bone, const std::string& out,
     if (json) {
       nlohmann::ordered_json row = {
           {"file", path}, {"volume_mm3", volume_mm3}, {"triangles", written->triangles}};
-      if (body.moved) row["moved"] = told[body.row];
+      if (body.moved) row["moved"] = moves[body.row];
       rows.push_back(std::move(row));
     } else {
       fmt::print("{}: {:.1f} mm^3 in {} triangles{}\n", path, volume_mm3, written->triangles,
                  body.moved ? fmt::format("; moved {:.2f} mm, turned {:.2f} degrees",
-                                          told[body.row]["distance_mm"].get<double>(),
-                                          told[body.row]["turned_deg"].get<double>())
+                                          moves[body.row]["distance_mm"].get<double>(),
+                                          moves[body.row]["turned_deg"].get<double>())
                             : "");
     }
   }

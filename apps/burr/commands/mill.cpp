@@ -208,10 +208,10 @@ Status run(MillOptions options, CommandResult* given) {
     if (!drawn) return drawn;
   }
   if (left && !left->sentence.empty()) doubts.push_back(left->sentence);
-  Told told{std::move(doubts), pieces_of(options, store, session.bone()), left};
-  if (options.heat) static_cast<void>(session.heat(told.heat));
-  CommandResult findings = result_of(options, session, recording, told);
-  tell(options, session, told, std::move(findings), given);
+  Besides besides{std::move(doubts), pieces_of(options, store, session.bone()), left};
+  if (options.heat) static_cast<void>(session.heat(besides.heat));
+  CommandResult findings = result_of(options, session, recording, besides);
+  tell(options, session, besides, std::move(findings), given);
   if (!put) return put;
   if (!recorded) return recorded;
   if (interrupted()) return error(Trouble::interrupted, "stopped; the results so far are kept");

@@ -56,7 +56,7 @@ nlohmann::json heat_json(const sim::Session& session, const thermal::HeatSummary
           {"tissues", tissues}};
 }
 
-void print(const MillOptions& options, sim::Session& session, const Told& told) {
+void print(const MillOptions& options, sim::Session& session, const Besides& besides) {
   const sim::Outcome outcome = session.outcome();
   const rt::TickSummary& t = outcome.timing;
   fmt::print(
@@ -72,9 +72,9 @@ void print(const MillOptions& options, sim::Session& session, const Told& told) 
   if (outcome.most_shed != tick::Shed::none)
     fmt::print("put off at times because this machine is too slow: {}\n",
                tick::name(outcome.most_shed));
-  if (options.heat) print_heat(session, told.heat, outcome.heat_rows_lost);
-  for (const std::string& line : report::pieces_text(told.pieces)) fmt::print("{}\n", line);
-  for (const std::string& doubt : told.doubts) fmt::print("noted: {}\n", doubt);
+  if (options.heat) print_heat(session, besides.heat, outcome.heat_rows_lost);
+  for (const std::string& line : report::pieces_text(besides.pieces)) fmt::print("{}\n", line);
+  for (const std::string& doubt : besides.doubts) fmt::print("noted: {}\n", doubt);
   for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
     fmt::print("noted: {}\n", sentence);
 }
@@ -82,7 +82,7 @@ void print(const MillOptions& options, sim::Session& session, const Told& told) 
 }  // namespace
 
 CommandResult result_of(const MillOptions& options, sim::Session& session,
-                        const Recording& recording, const Told& told) {
+                        const Recording& recording, const Besides& besides) {
   const sim::Outcome outcome = session.outcome();
   const rt::TickSummary& t = outcome.timing;
   CommandResult findings;
@@ -96,11 +96,11 @@ CommandResult result_of(const MillOptions& options, sim::Session& session,
   out["owed_mm3"] = 1e9 * outcome.ledger.debt;
   if (!options.move_pieces.empty() || !options.carry_piece.empty()) {
     out["moved_loss_mm3"] = 1e9 * outcome.ledger.moved;
-    out["pieces"] = nlohmann::json::parse(report::pieces_json(told.pieces));
+    out["pieces"] = nlohmann::json::parse(report::pieces_json(besides.pieces));
   }
-  if (told.left) {
-    out["plane_left"] = told.left->share;
-    out["plane_needs_s"] = told.left->needs_s;
+  if (besides.left) {
+    out["plane_left"] = besides.left->share;
+    out["plane_needs_s"] = besides.left->needs_s;
   }
   out["peak_force_N"] = outcome.peak_force;
   out["mean_force_N"] = outcome.mean_force;
@@ -115,25 +115,25 @@ CommandResult result_of(const MillOptions& options, sim::Session& session,
   times["missed"] = t.missed;
   times["worst_lateness_us"] = t.worst_lateness_us;
   out["bone_hash"] = record::hex(session.bone().content_hash());
-  std::vector<std::string> noted = told.doubts;
+  std::vector<std::string> noted = besides.doubts;
   for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
     noted.push_back(sentence);
   out["noted"] = noted;
   times["load_ticks"] = outcome.shed_ticks;
-  if (options.heat) out["heat"] = heat_json(session, told.heat, outcome.heat_rows_lost);
+  if (options.heat) out["heat"] = heat_json(session, besides.heat, outcome.heat_rows_lost);
   if (options.realtime) times["scheduling"] = outcome.scheduling;
   if (!options.record.empty()) times["recording"] = recording.account();
   return findings;
 }
 
-void tell(const MillOptions& options, sim::Session& session, const Told& told,
+void tell(const MillOptions& options, sim::Session& session, const Besides& besides,
           CommandResult findings, CommandResult* given) {
   if (given != nullptr)
     *given = std::move(findings);
   else if (options.json)
     fmt::print("{}\n", json_line(findings.whole()));
   else
-    print(options, session, told);
+    print(options, session, besides);
 }
 
 }  // namespace burr::app

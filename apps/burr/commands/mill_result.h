@@ -17,7 +17,7 @@
 
 namespace burr::app {
 
-struct Told {
+struct Besides {
   std::vector<std::string> doubts;
   std::vector<report::MovedPiece> pieces;  // that were moved
   std::optional<CutLeft> left;             // of a cut along a plane
@@ -25,10 +25,10 @@ struct Told {
 };
 
 [[nodiscard]] CommandResult result_of(const MillOptions& options, sim::Session& session,
-                                      const Recording& recording, const Told& told);
+                                      const Recording& recording, const Besides& besides);
 
 // given: takes the findings; nullptr: it is printed.
-void tell(const MillOptions& options, sim::Session& session, const Told& told,
+void tell(const MillOptions& options, sim::Session& session, const Besides& besides,
           CommandResult findings, CommandResult* given);
 
 }  // namespace burr::app

@@ -109,20 +109,20 @@ Result<Closed> mill_into_folder(Desk& desk, WindowSession& ready, const Options&
   if (!begun) return begun.error();
   const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
   session_begins(desk, file, options.work.identity, work);
-  WindowOptions told = window;
-  told.warning = [&recording] { return recording.trouble(); };
-  told.keep = [] { return true; };  // this run is recorded already
-  told.diary = recording.diary();
-  told.done_ends = ready.work_case && has_marks(*ready.work_case);
-  told.film_of = [&]() -> std::optional<FilmSource> {
+  WindowOptions with_recording = window;
+  with_recording.warning = [&recording] { return recording.trouble(); };
+  with_recording.keep = [] { return true; };  // this run is recorded already
+  with_recording.diary = recording.diary();
+  with_recording.done_ends = ready.work_case && has_marks(*ready.work_case);
+  with_recording.film_of = [&]() -> std::optional<FilmSource> {
     FilmSource source = film_of(session, file, ready.volume);
     source.effects = desk.settings.effects;
     return source;
   };
-  const auto left = mill_with_sound(desk, ready, told);
+  const auto left = mill_with_sound(desk, ready, with_recording);
   const bool done = left && *left == Closed::done;
   Result<bool> stays = true;
-  if (done) stays = ask_own_marks(desk, ready, *told.diary, window);
+  if (done) stays = ask_own_marks(desk, ready, *with_recording.diary, window);
   const Status recorded = recording.finish(session);
   if (!left) return left.error();
   // one that ended early, on a full disk, counts with what it holds
@@ -182,14 +182,14 @@ Status show_to_instructor(Desk& desk, const Options& options) {
 }
 
 // What burr reports about the sessions of this run to a learning management system.
-struct Told {
+struct RunReport {
   double seconds = 0;
   bool done = false;  // of one of them
 };
 
 // Runs `work` between what cmi5 wants first and last. A run that failed was not completed.
 template <class Work>
-Status launched(const Options& options, Told& told, Work work) {
+Status launched(const Options& options, RunReport& report, Work work) {
   if (options.cmi5.empty()) return work();
   if (options.work.volume.source.empty())
     return error(Trouble::usage, "--cmi5: name the case too, for example: burr run temporal-bone");
@@ -197,13 +197,13 @@ Status launched(const Options& options, Told& told, Work work) {
   auto launch = lrs::Launch::begin(options.cmi5);
   if (!launch) return launch.error();
   const Status worked = work();
-  const auto ended = (*launch)->end(told.seconds, worked.ok() && told.done, launches_folder());
+  const auto ended = (*launch)->end(report.seconds, worked.ok() && report.done, launches_folder());
   if (ended && !ended->empty()) fmt::print(stderr, "{}\n", *ended);
   return worked && !ended ? Status(ended.error()) : worked;
 }
 
 // The start page, or sessions on what was named.
-Status run_in_window(Options options, Told& told) {
+Status run_in_window(Options options, RunReport& report) {
   const std::filesystem::path folder = options.out;
   if (!folder.empty()) {
     Status made = make_run_folder(folder);
@@ -214,9 +214,9 @@ Status run_in_window(Options options, Told& told) {
   if (!desk) return desk.error();
   (*desk)->store = options.store;
   if (const Status shown = show_to_instructor(**desk, options); !shown) return shown;
-  (*desk)->session_over = [&told](double seconds, bool done) {
-    told.seconds += seconds;
-    told.done = told.done || done;
+  (*desk)->session_over = [&report](double seconds, bool done) {
+    report.seconds += seconds;
+    report.done = report.done || done;
   };
   enter_waiting(**desk);
   (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
@@ -238,11 +238,11 @@ Status run(Options options) {
   const bool windowless = options.headless || !display_there();
   // before the window opens
   if (const auto law = own_law(options.work.law, !windowless); !law) return law.error();
-  Told told;
-  if (!windowless) return launched(options, told, [&] { return run_in_window(options, told); });
+  RunReport report;
+  if (!windowless) return launched(options, report, [&] { return run_in_window(options, report); });
   for (const auto& [option, given] : {std::pair{"--device", &options.work.hand.device},
                                       {"--suction", &options.work.suction},
-                                      {"--publish-as", &options.work.told_as}})
+                                      {"--publish-as", &options.work.publish_as}})
     if (!given->empty())
       return error(Trouble::usage,
                    fmt::format("{0} {1}: this needs a window. Use the computer's own display, or "
@@ -253,9 +253,9 @@ Status run(Options options) {
   options.work.seconds = options.seconds;
   if (Status taken = take_case(options.work); !taken) return taken;
   // nobody is there to declare the work done: it is, where nothing stopped it
-  return launched(options, told, [&] {
-    told.seconds = options.seconds > 0 ? options.seconds : kHeadlessSeconds;
-    told.done = true;
+  return launched(options, report, [&] {
+    report.seconds = options.seconds > 0 ? options.seconds : kHeadlessSeconds;
+    report.done = true;
     return run_headless(options);
   });
 }
@@ -302,7 +302,7 @@ void add(CLI::App& app, Todo& todo) {
   second->excludes("--headless");
   add_second_tool_option(*command, options->work.tool)->needs(second);
   command
-      ->add_option("--publish-as", options->work.told_as,
+      ->add_option("--publish-as", options->work.publish_as,
                    "/NAME: publish the session as a CRTK arm of this name, so that other programs "
                    "can watch and record it (ROS 2)")
       ->excludes("--headless");

@@ -96,8 +96,8 @@ Status list(const Options& options) {
     const workshop::NamesThere there = workshop::names_there(kind);
     const std::size_t before = all.size();
     for (const std::string& name : there.names) {
-      const Status told = tell(kind, name, book, all, options.json);
-      if (!told) return told;
+      const Status printed = tell(kind, name, book, all, options.json);
+      if (!printed) return printed;
     }
     const bool any = std::any_of(all.begin() + static_cast<std::ptrdiff_t>(before), all.end(),
                                  [](const nlohmann::json& one) { return one["there"] == true; });

@@ -185,11 +185,11 @@ void add_xapi(CLI::App& learner, Todo& todo) {
 std::filesystem::path launches_folder() { return users_places().state / "cmi5"; }
 
 void tell_waiting_launches() {
-  const lrs::ToldLater told = lrs::tell_waiting(launches_folder());
-  if (told.launches > 0)
+  const lrs::SentLater sent = lrs::tell_waiting(launches_folder());
+  if (sent.launches > 0)
     fmt::print(stderr, "{} kept from earlier were sent to the learning management system\n",
-               told.launches == 1 ? "1 launch" : fmt::format("{} launches", told.launches));
-  print_notices(told.notices);
+               sent.launches == 1 ? "1 launch" : fmt::format("{} launches", sent.launches));
+  print_notices(sent.notices);
 }
 
 void send_what_is_due(school::Store& store) {

@@ -107,8 +107,8 @@ Result<WindowSession> make_window_session(const WorkOptions& options,
     ready.suction = std::move(*suction);
     ready.hands.suction = ready.suction.get();
   }
-  if (!options.told_as.empty()) {
-    auto arm = device::crtk::Arm::open({.name = options.told_as, .middle = above.p});
+  if (!options.publish_as.empty()) {
+    auto arm = device::crtk::Arm::open({.name = options.publish_as, .middle = above.p});
     if (!arm) return arm.error();
     ready.arm = std::move(*arm);
     ready.teller = std::make_unique<workshop::ArmPublisher>(*ready.session, *ready.arm);

@@ -35,7 +35,7 @@ struct WorkOptions {
   double seconds = 0;           // of the demonstration; 0: that of the case
   workshop::HandRequest hand;   // in the window
   std::string suction;          // in the window: a device for the other hand; empty: none
-  std::string told_as;          // in the window: name of the published CRTK arm; empty: none
+  std::string publish_as;       // in the window: name of the published CRTK arm; empty: none
   ToolOptions tool;             // of the rack
   LawChoice law;                // a custom law, for each session anew
   std::uint32_t bone = 0;       // another bone of the case (workshop/other_bone.h); 0: its own

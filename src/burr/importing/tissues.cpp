@@ -51,7 +51,7 @@ std::size_t number_of(std::int64_t value, const std::vector<io::Label>& names) {
 Status read_table(const std::string& text, const std::string& file,
                   const std::vector<io::Label>& names, const Materials& materials,
                   std::vector<Tissue>& of_value, std::array<bool, 256>& known,
-                  std::array<bool, 256>& told) {
+                  std::array<bool, 256>& stated) {
   const auto read = parse_toml(text, file);
   if (!read) return read.error();
   const auto* list = (*read)["label"].as_array();
@@ -79,7 +79,7 @@ Status read_table(const std::string& text, const std::string& file,
     for (const std::size_t v : hits) {
       Tissue& tissue = of_value[v];
       known[v] = true;
-      told[v] = told[v] || entry->contains("kind") || entry->contains("material");
+      stated[v] = stated[v] || entry->contains("kind") || entry->contains("material");
       if (name) tissue.name = *name;
       if (const auto kind = (*entry)["kind"].value<std::string>()) {
         if (*kind == "solid")
@@ -219,7 +219,7 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
                                    const std::string& table_path, const Materials& materials) {
   std::vector<Tissue> of_value(256);
   std::array<bool, 256> known{};
-  std::array<bool, 256> told{};        // the table states its kind or its material
+  std::array<bool, 256> stated{};      // the table states its kind or its material
   std::array<bool, 256> understood{};  // by its name
   LabelTissues out;
   std::vector<io::Label> names = scan.label_names;
@@ -264,7 +264,7 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
   }
   out.table.tissues.resize(1);
   if (!table.empty()) {
-    if (Status status = read_table(table, file, names, materials, of_value, known, told); !status)
+    if (Status status = read_table(table, file, names, materials, of_value, known, stated); !status)
       return status.error();
   } else if (unnamed > 0 && different > 1) {
     out.notices.push_back(
@@ -273,9 +273,9 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
                     unnamed, different));
   }
   std::vector<std::string> doubts;
-  for (std::size_t v = 1; v < 256; ++v) out.assumed[v] = out.assumed[v] && !told[v];
+  for (std::size_t v = 1; v < 256; ++v) out.assumed[v] = out.assumed[v] && !stated[v];
   for (std::size_t v = 1; v < 256; ++v)
-    if (present[v] && !understood[v] && !told[v])
+    if (present[v] && !understood[v] && !stated[v])
       doubts.push_back(fmt::format("{} ({})", v, base::printable(of_value[v].name)));
   if (!doubts.empty()) out.notices.push_back(not_understood(doubts));
   for (std::size_t v = 1; v < 256; ++v) {

@@ -278,8 +278,8 @@ Result<std::string> Launch::end(double seconds, bool finished, const fs::path& w
   return std::string();
 }
 
-ToldLater tell_waiting(const fs::path& folder, double wait_s) {
-  ToldLater out;
+SentLater tell_waiting(const fs::path& folder, double wait_s) {
+  SentLater out;
   std::error_code nobody_asks;
   for (const fs::path& file : waiting_in(folder)) {
     std::ifstream in(file);

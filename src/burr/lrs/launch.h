@@ -51,14 +51,14 @@ class Launch {
 // After so long nobody waits for it any more, and the file with its token goes.
 inline constexpr int kDaysToWait = 7;
 
-struct ToldLater {
+struct SentLater {
   std::size_t launches = 0;          // of which all was said
   std::size_t left = 0;              // that wait on
   std::vector<std::string> notices;  // sentences about those that were given up, and why
 };
 // Says what waits in `folder`, each once. A system that refuses has ended the session by itself; that launch is given up.
 // It does no harm that another burr does the same.
-[[nodiscard]] ToldLater tell_waiting(const std::filesystem::path& folder, double wait_s = 15);
+[[nodiscard]] SentLater tell_waiting(const std::filesystem::path& folder, double wait_s = 15);
 [[nodiscard]] std::size_t count_waiting(const std::filesystem::path& folder);
 
 }  // namespace burr::lrs

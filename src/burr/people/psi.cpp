@@ -62,9 +62,9 @@ void Psi::choose() {
       p += here;
       left += entropy(here, weight);
     }
-    const double told = entropy(p, all) - left;
-    if (told > most) {
-      most = told;
+    const double gain = entropy(p, all) - left;
+    if (gain > most) {
+      most = gain;
       next_ = n;
     }
   }

@@ -20,17 +20,17 @@ class OneShare final : public Progress {
   explicit OneShare(Progress& whole) : whole_(whole) {}
   void report(double fraction, std::string_view stage) override {
     constexpr double kStep = 0.25;  // of what is left
-    const double from = from_.emplace(std::string(stage), told_).first->second;
+    const double from = from_.emplace(std::string(stage), reported_).first->second;
     const double here = from + kStep * (1 - from) * std::clamp(fraction, 0.0, 1.0);
-    told_ = std::max(told_, here);
-    whole_.report(told_, stage);
+    reported_ = std::max(reported_, here);
+    whole_.report(reported_, stage);
   }
   [[nodiscard]] bool cancelled() const override { return whole_.cancelled(); }
 
  private:
   Progress& whole_;
   std::map<std::string, double> from_;  // where a step began; steps come again
-  double told_ = 0;
+  double reported_ = 0;
 };
 
 }  // namespace

@@ -48,7 +48,7 @@ std::optional<NextPractice> proposal(const std::vector<Practised>& sessions, Tre
   return out;
 }
 
-CasePractice told_of(std::string name, const std::vector<Practised>& sessions, Trend trend) {
+CasePractice practice_of(std::string name, const std::vector<Practised>& sessions, Trend trend) {
   CasePractice out;
   out.case_name = std::move(name);
   out.finished = static_cast<int>(sessions.size());
@@ -126,7 +126,7 @@ Result<std::vector<LearnerPractice>> practice(Store& store, const std::string& l
     }
     LearnerPractice& one = all.emplace_back(LearnerPractice{id, {}});
     for (auto name = by_time.rbegin(); name != by_time.rend(); ++name)
-      one.cases.push_back(told_of(*name, cases[*name], remembered(id, *name, cases[*name])));
+      one.cases.push_back(practice_of(*name, cases[*name], remembered(id, *name, cases[*name])));
   }
   if (memo != nullptr && learner.empty()) *memo = std::move(fresh);
   return all;

@@ -132,23 +132,23 @@ Result<PieceMoved> put_down(Session& session, edit::PieceStore& store, const Pie
 Result<bool> leave_piece(Session& session) {
   constexpr double kStep = 0.05, kMost = 60;  // [s]
   NoProgress quiet;
-  bool told = false;
+  bool left_it = false;
   for (double waited = 0; waited < kMost; waited += kStep) {
     const tick::Servo& servo = session.servo();
     const tick::MoveState now = servo.move_state();
     const bool moves = now == tick::MoveState::waiting || now == tick::MoveState::moving;
     if (!moves && !servo.restoring()) {
       if (!servo.piece().lifted()) break;
-      if (told) return error(Trouble::internal, "the piece is still out of the bone");
+      if (left_it) return error(Trouble::internal, "the piece is still out of the bone");
       session.command({tick::CommandKind::leave_piece, 0});
-      told = true;
+      left_it = true;
     }
     session.run(kStep, quiet);
   }
   if (session.servo().piece().lifted() || session.servo().restoring())
     return error(Trouble::internal, "the piece did not go back into the bone in time");
-  if (told) session.run(kRest, quiet);
-  return told;
+  if (left_it) session.run(kRest, quiet);
+  return left_it;
 }
 
 bool moves_pieces(record::Player& player) {

@@ -370,7 +370,7 @@ XrResult xrWaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState* to) {
     TYPED(to, XR_TYPE_FRAME_STATE);
     DEMAND(g_world->running, XR_ERROR_SESSION_NOT_RUNNING);
     DEMAND(g_world->frame_waited == 0, XR_ERROR_CALL_ORDER_INVALID);
-    g_fake->told.wait(lock, [mine = g_fake] { return !mine->hangs; });
+    g_fake->wakes.wait(lock, [mine = g_fake] { return !mine->hangs; });
     ++g_world->frame_waited;
     ++g_fake->waited;
     g_world->time += 11'111'111;

@@ -22,7 +22,7 @@ namespace burr::test {
 
 struct FakeXr {
   mutable std::mutex mutex;
-  std::condition_variable told;
+  std::condition_variable wakes;
 
   // ---- properties
   bool no_runtime = false, no_headset = false, no_opengl = false;

@@ -9,10 +9,10 @@ const kMemory = 1024, kLeastMemory = 64, kMostMemory = 1024;  // [MiB]
 let worker = null, dialog = null, made = null;
 let state = {};  // what the tests and the curious read
 
-// told: what becomes of the scan is written there. on_bone({blob, plan}): the bone is there.
-export function open_scan(told, on_bone) {
+// page_state: what becomes of the scan is written there. on_bone({blob, plan}): the bone is there.
+export function open_scan(page_state, on_bone) {
   made = on_bone;
-  state = told;
+  state = page_state;
   dialog ?? build();
   close();
   for (const one of dialog.querySelectorAll('[data-own]')) one.textContent = word(one.dataset.own);

@@ -60,15 +60,15 @@ async function read(files, recipe) {
 }
 
 function plan(recipe) {
-  const told = module.UTF8ToString(with_text(JSON.stringify(recipe), module._import_plan));
-  if (told === '') return refuse();
-  self.postMessage({kind: 'plan', plan: JSON.parse(told)});
+  const text = module.UTF8ToString(with_text(JSON.stringify(recipe), module._import_plan));
+  if (text === '') return refuse();
+  self.postMessage({kind: 'plan', plan: JSON.parse(text)});
 }
 
 function make(recipe) {
-  const told = module.UTF8ToString(with_text(JSON.stringify(recipe), module._import_make));
-  if (told === '') return refuse();
+  const text = module.UTF8ToString(with_text(JSON.stringify(recipe), module._import_make));
+  if (text === '') return refuse();
   const at = module._import_bone(), size = module._import_bone_size();
   const blob = module.HEAPU8.slice(at, at + size);
-  self.postMessage({kind: 'bone', blob, plan: JSON.parse(told)}, [blob.buffer]);
+  self.postMessage({kind: 'bone', blob, plan: JSON.parse(text)}, [blob.buffer]);
 }

@@ -36,7 +36,7 @@ export function tissues(burr) {
   for (let n = 0;; ++n) {
     const at = burr.core_tissue(n);
     if (at === 0) return all;
-    all.push({name: burr.text(burr.core_tissue_name(n)), told: [...burr.numbers(at, 5)]});
+    all.push({name: burr.text(burr.core_tissue_name(n)), look: [...burr.numbers(at, 5)]});
   }
 }
 
@@ -116,7 +116,7 @@ export function show(view, one) {
 
 // Another bone than the page's: its tissues, from tissues(). mouse: the tool follows a mouse, and is drawn as a hand would hold it.
 export function begin_bone(view, all, voxel_mm, rate, mouse) {
-  for (const {name, told} of all)
-    view.with_bytes([new TextEncoder().encode(name + '\0')], (text) => view.view_tissue(text, ...told));
+  for (const {name, look} of all)
+    view.with_bytes([new TextEncoder().encode(name + '\0')], (text) => view.view_tissue(text, ...look));
   view.view_other_bone(voxel_mm, rate, mouse ? 1 : 0);
 }

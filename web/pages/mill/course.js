@@ -314,11 +314,11 @@ export class Course {
 
   // As the window shows it (review/review_page.cpp).
   result() {
-    const told = this.page === 'exam' ? this.text('review_exam') : this.trouble;
+    const reason = this.page === 'exam' ? this.text('review_exam') : this.trouble;
     const inside = this.page === 'waits' ? [make('p', {}, this.text('review_waits')), make('progress')]
-                 : told ? [make('p', {}, told)]
+                 : reason ? [make('p', {}, reason)]
                  : this.found_parts(this.found.report);
-    const single = this.page !== 'found' || told;
+    const single = this.page !== 'found' || reason;
     return [
       make('h1', {}, this.text('review_title')),
       make('div', {class: single ? 'body single' : 'body', tabindex: '0'}, ...inside),

@@ -168,7 +168,7 @@ void MillActions::change_loudness(int by) {
 
 void MillActions::declare_done() {
   switch (parts_.work_case.declare_done(over_.pages->asks_done())) {
-    case MillCase::Done::told:
+    case MillCase::Done::answered:
       return;
     case MillCase::Done::asks:
       parts_.hand.lift();

@@ -221,19 +221,19 @@ void MillCase::keep_diary(record::Sight sight, const Nearest& nearest, bool pane
 }
 
 MillCase::Done MillCase::declare_done(bool asked) {
-  const auto told = [this](Word says) {
+  const auto answer = [this](Word says) {
     notes_.note(word(says));
-    return Done::told;
+    return Done::answered;
   };
-  if (options_.diary == nullptr) return told(Word::done_not_recorded);
+  if (options_.diary == nullptr) return answer(Word::done_not_recorded);
   if (!options_.done_ends) {
     const bool done = !options_.diary->declared_done();
     options_.diary->declare_done(row_.tick, done);
-    return told(done ? Word::done_declared : Word::done_taken_back);
+    return answer(done ? Word::done_declared : Word::done_taken_back);
   }
   if (asked) return Done::ends;
   // where nothing was done there is nothing to mark
-  if (row_.ledger.removed <= 0 && row_.ledger.added <= 0) return told(Word::done_nothing);
+  if (row_.ledger.removed <= 0 && row_.ledger.added <= 0) return answer(Word::done_nothing);
   return Done::asks;
 }
 

@@ -78,9 +78,9 @@ class MillCase {
   // sight: what the page shows, without the warning. panels: the figures are seen.
   void keep_diary(record::Sight sight, const Nearest& nearest, bool panels);
   enum class Done {
-    told,  // it was declared or taken back, or it cannot be
-    asks,  // it would end the session: ask the user
-    ends,  // the session ends: mark_done()
+    answered,  // it was declared or taken back, or it cannot be
+    asks,      // it would end the session: ask the user
+    ends,      // the session ends: mark_done()
   };
   // asked: the question is open, so this is its answer.
   [[nodiscard]] Done declare_done(bool asked);

@@ -30,9 +30,9 @@ std::string MillNotes::renew(const Stands& now) {
   note_ = line_.note(renewed_, now.progress);
   const std::string measured = note_.empty() ? now.measured : std::string();
   if (note_.empty() && measured.empty()) note_ = now.hint;
-  const std::string& told = note_.empty() ? measured : note_;
+  const std::string& line = note_.empty() ? measured : note_;
   if (!now.trouble.empty()) return now.trouble;
-  return warning_.empty() || told.empty() ? warning_ + told : warning_ + "; " + told;
+  return warning_.empty() || line.empty() ? warning_ + line : warning_ + "; " + line;
 }
 
 }  // namespace burr::app

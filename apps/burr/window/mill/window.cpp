@@ -103,10 +103,10 @@ Status Mill::frame(workshop::LiveSurface& live) {
   parts_.hand.point();
   parts_.hand.measure();
   if (ticks_.begun()) look_at_case();
-  if (ExportPage::Told told = over_.pages->exporting().step(); told.stays)
-    notes_.keep(std::move(told.text));
+  if (ExportPage::Note note = over_.pages->exporting().step(); note.stays)
+    notes_.keep(std::move(note.text));
   else
-    notes_.note(std::move(told.text));
+    notes_.note(std::move(note.text));
   update_status();
   parts_.names.look(parts_.side.leaf() == Leaf::structures, parts_.hand.pressing());
   parts_.view.step(parts_.hand.below());

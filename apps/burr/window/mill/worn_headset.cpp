@@ -44,7 +44,7 @@ void WornHeadset::take_off() {
 }
 
 std::string WornHeadset::begin(render::FrameGovernor& governor, const render::Camera& camera) {
-  std::string told = look_for_it();
+  std::string line = look_for_it();
   seen_.reset();
   const bool runs = desk_.headset != nullptr && desk_.headset->running();
   constexpr double kWait = 0.02;  // longest wait; then the window is drawn alone  [s]
@@ -54,13 +54,13 @@ std::string WornHeadset::begin(render::FrameGovernor& governor, const render::Ca
     governor.allow_moving(render::GovernorSettings().moving_s);
     wand_ = wand_ && runs;  // without a headset, the mouse is the hand
   }
-  if (!seen_) return told;
+  if (!seen_) return line;
   if (seen_->period > 0) governor.allow_moving(seen_->period);
   for (std::size_t eye = 0; eye < 2; ++eye)
     cameras_[eye] = render::placed(camera, seen_->room_from_eye[eye]);
   wand_at_ = seen_->wand;
   wand_ = wand_ || wand_at_.tracked;
-  return told;
+  return line;
 }
 
 void WornHeadset::end(const render::Scene& scene) {

@@ -130,7 +130,7 @@ void ExportPage::ask(bool may_replace) {
   show(false);
 }
 
-ExportPage::Told ExportPage::step() {
+ExportPage::Note ExportPage::step() {
   if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) request_.path = *chosen;
   if (!work_ || !work_->finished()) return {};
   const Result<ExportDone> done = work_->take();
@@ -268,11 +268,11 @@ void ExportPage::draw() {
   if (is_film) draw_film_plan(x + 28 * u, y + 202 * u);
 
   // the reason against the request, or how far the export is
-  const std::string& told =
+  const std::string& line =
       replaces_          ? say(Word::export_exists, fs::path(request_.path).filename().string())
       : trouble_.empty() ? progress()
                          : trouble_;
-  if (!told.empty()) {
+  if (!line.empty()) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float top = y + (is_film ? 250 : 204) * u;
     float from = x + 28 * u;
@@ -284,7 +284,7 @@ void ExportPage::draw() {
     }
     const ImFont* font = ui.font(Letter::body);
     draw.PushClipRect({x, y}, {x + w, y + h - 60 * u}, true);
-    draw.AddText(font, font->FontSize, {from, top}, ink::kText, told.c_str(), nullptr,
+    draw.AddText(font, font->FontSize, {from, top}, ink::kText, line.c_str(), nullptr,
                  x + w - 28 * u - from);
     draw.PopClipRect();
   }

@@ -42,12 +42,12 @@ class ExportPage {
   void show(bool shown);
   void draw();
   // For the user; text: "" for none. stays: until it is clicked away, because somebody waited for it.
-  struct Told {
+  struct Note {
     std::string text = {};
     bool stays = false;
   };
   // Call it in each frame.
-  [[nodiscard]] Told step();
+  [[nodiscard]] Note step();
   // How far the export is, as text; "": nothing is being written.
   [[nodiscard]] std::string progress() const;
   // The reason that the page shows against the request; "": none, or the page is not shown.

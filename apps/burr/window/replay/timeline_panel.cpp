@@ -203,11 +203,11 @@ class Line {
       draw.AddTriangleFilled({middle - 5 * u_, floor - 6 * u_}, {middle + 5 * u_, floor - 6 * u_},
                              {middle, floor - 14 * u_}, ink::kBad);
     }
-    const std::string told = say(Word::replay_nearest, 1e3 * kShownDistance);
-    const float wide = ui_.width_of(Letter::small, told) + 8 * u_;
+    const std::string nearest = say(Word::replay_nearest, 1e3 * kShownDistance);
+    const float wide = ui_.width_of(Letter::small, nearest) + 8 * u_;
     draw.AddRectFilled({x_ + w_ - wide, y_}, {x_ + w_, y_ + ui_.height_of(Letter::small) + 2 * u_},
                        ink::kPanel, 3 * u_);
-    ui_.write(x_ + w_ - 4 * u_, y_ + 1 * u_, Letter::small, ink::kGood, told, 1);
+    ui_.write(x_ + w_ - 4 * u_, y_ + 1 * u_, Letter::small, ink::kGood, nearest, 1);
   }
 
   // labels at round times below, as many as fit
@@ -263,7 +263,7 @@ class Line {
   }
 
   // describes what is under the mouse
-  void told(double clock) const {
+  void show_tooltip(double clock) const {
     const double t = clock - from_;
     if (t < 0 || t > line_.seconds) return;
     std::string text = fmt::format("{}   {:.2f} N", clock_of(t),
@@ -460,7 +460,7 @@ TimelineDone draw_timeline(Ui& ui, const TimelineState& s) {
   line.film(s.film_from, s.film_until, line.bottom());
   line.head(s.t, lowest.bottom());
   if (over || done.scrubbed)
-    (second && mouse.y > second->top() ? *second : line).told(line.clock_at(mouse.x));
+    (second && mouse.y > second->top() ? *second : line).show_tooltip(line.clock_at(mouse.x));
   ImGui::End();
 
   float above = y;

@@ -79,8 +79,8 @@ Result<Closed> Watch::run() {
     // a slow computer shows fewer moments; the session does not take longer
     first_->want(now_.t);
     if (second_) second_->want(now_.t - now_.shift);
-    if (ExportPage::Told told = export_->step(); !told.text.empty())
-      note(std::move(told.text), told.stays);
+    if (ExportPage::Note ended = export_->step(); !ended.text.empty())
+      note(std::move(ended.text), ended.stays);
     const bool writes = !export_->progress().empty();
     if (writes && !writing_) note({});  // the line is for what is being written now
     writing_ = writes;
@@ -126,8 +126,9 @@ Status Watch::show() {
   tell();
   now_.buttons.clear();
   now_.table = {};
-  const bool told = !note_.empty() && Clock::now() - noted_ < std::chrono::seconds(3);
-  const auto over = panels_ || page_open() || told ? [this] { panels(); } : std::function<void()>();
+  const bool notes = !note_.empty() && Clock::now() - noted_ < std::chrono::seconds(3);
+  const auto over =
+      panels_ || page_open() || notes ? [this] { panels(); } : std::function<void()>();
   Status shown = fine();
   if (second_) {
     follow();

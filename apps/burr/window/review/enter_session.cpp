@@ -19,7 +19,7 @@ namespace burr::app {
 namespace {
 
 void tell(Desk& desk, const std::string& line) {
-  desk.told = line;
+  desk.news = line;
   fmt::print(stderr, "{}\n", line);  // the window may close before anybody reads it there
 }
 

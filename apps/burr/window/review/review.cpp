@@ -124,12 +124,12 @@ class Review {
   // terminal does too, because burr may end before.
   void leave_report() {
     if (!full_->writes()) return;
-    desk_.told = say(Word::review_goes_on, full_->page());
-    fmt::print(stderr, "{}\n", desk_.told);
+    desk_.news = say(Word::review_goes_on, full_->page());
+    fmt::print(stderr, "{}\n", desk_.news);
     desk_.under_way.emplace_back([&desk = desk_, report = full_] {
       report->step(desk.page == Page::start);  // nobody wants a browser over a session
       if (report->writes()) return false;
-      desk.told = report->note();
+      desk.news = report->note();
       return true;
     });
   }

@@ -240,8 +240,8 @@ Result<Closed> look_at(Desk& desk, const StartPage::Choice& choice, const PagesO
 
 Status run_pages(Desk& desk, const PagesOptions& options) {
   StartPage start(desk, mill_help_rows, options.led.hand, options.led.identity);
-  std::string trouble, told;  // told: of a session that was not kept
-  RateState rating;           // of whoever marks products, while burr runs
+  std::string trouble, last_loss;  // last_loss: of a session that was not kept
+  RateState rating;                // of whoever marks products, while burr runs
   for (;;) {
     auto choice = start.ask(trouble, options.seconds);
     if (!choice) return choice.error();
@@ -260,7 +260,7 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
       if (choice->go_on) choice->open = choice->go_on->options;
       choice->open->hand = start.hand();
       choice->open->suction = options.led.suction;
-      choice->open->told_as = options.led.told_as;
+      choice->open->publish_as = options.led.publish_as;
       if (desk.settings.shaft_touches) choice->open->touch = haptics::Method::shaft;
       if (choice->go_on) choice->go_on->options = *choice->open;
       do {
@@ -270,8 +270,8 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
     }
     if (!left) return left.error();
     if (*left == Closed::window) return desk.lost;
-    if (!desk.lost && std::exchange(told, desk.lost.error().text) != desk.lost.error().text)
-      trouble = told;
+    if (!desk.lost && std::exchange(last_loss, desk.lost.error().text) != desk.lost.error().text)
+      trouble = last_loss;
   }
 }
 

@@ -19,7 +19,7 @@ struct PagesOptions {
   std::string folder = {};      // where the key P saves pictures
   std::string screenshot = {};  // PNG of the last picture of the window
   bool sound = true;
-  // only hand, suction, told_as and identity of it are used; without a hand, that of the settings is
+  // only hand, suction, publish_as and identity of it are used; without a hand, that of the settings is
   // taken
   WorkOptions led = {};
 };

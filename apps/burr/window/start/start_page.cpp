@@ -172,7 +172,7 @@ void StartPage::draw() {
   cards(x, top + 124 * u);
   other_bone(x + 526 * u, top + 330 * u, 226 * u);
   draw_message(x, top + 528 * u, 752 * u);
-  draw_told(x, top + 622 * u, 752 * u);
+  draw_news(x, top + 622 * u, 752 * u);
 
   const float right = x + 788 * u, w = 392 * u;
   own_scan(right, top + 96 * u, w);
@@ -233,7 +233,7 @@ void StartPage::modes(float x, float y) {
   const float u = ui.unit();
   struct One {
     record::Mode mode;
-    Word name, told;
+    Word name, help;
   };
   ui.write(x, y + 8 * u, Letter::strong, ink::kAccent, word(Word::mode_title));
   float at = x + 90 * u;
@@ -245,7 +245,7 @@ void StartPage::modes(float x, float y) {
     if (ImGui::RadioButton(word(one.name), identity_.mode == one.mode)) identity_.mode = one.mode;
     at += ImGui::GetItemRectSize().x + 14 * u;
     if (identity_.mode == one.mode)
-      ui.write(x + 90 * u, y - 16 * u, Letter::small, ink::kDim, word(one.told));
+      ui.write(x + 90 * u, y - 16 * u, Letter::small, ink::kDim, word(one.help));
   }
 }
 
@@ -390,21 +390,21 @@ void StartPage::recents(float x, float& y, float w) {
 }
 
 // What is no error: a frame without a warning sign. A click takes it away.
-void StartPage::draw_told(float x, float y, float w) {
-  if (desk_.told.empty()) return;
+void StartPage::draw_news(float x, float y, float w) {
+  if (desk_.news.empty()) return;
   const Ui& ui = desk_.ui();
   const float u = ui.unit(), h = 30 * u;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImGui::SetCursorScreenPos({x, y});
-  const bool away = ImGui::InvisibleButton("##toldaway", {w, h});
+  const bool away = ImGui::InvisibleButton("##newsaway", {w, h});
   draw.AddRectFilled({x, y}, {x + w, y + h}, ImGui::IsItemHovered() ? ink::kOver : ink::kButton,
                      6 * u);
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("%s\n%s", desk_.told.c_str(), word(Word::line_close));
+    ImGui::SetTooltip("%s\n%s", desk_.news.c_str(), word(Word::line_close));
   draw.PushClipRect({x, y}, {x + w - 10 * u, y + h}, true);
-  ui.write(x + 14 * u, y + 7 * u, Letter::body, ink::kText, desk_.told);
+  ui.write(x + 14 * u, y + 7 * u, Letter::body, ink::kText, desk_.news);
   draw.PopClipRect();
-  if (away) desk_.told.clear();
+  if (away) desk_.news.clear();
 }
 
 void StartPage::draw_message(float x, float y, float w) {

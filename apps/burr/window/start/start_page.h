@@ -55,7 +55,7 @@ class StartPage {
   void modes(float x, float y);
   void other_bone(float x, float y, float w);
   void draw_message(float x, float y, float w);
-  void draw_told(float x, float y, float w);
+  void draw_news(float x, float y, float w);
   void play(const KeptSession& kept);
   [[nodiscard]] bool row(const char* id, float x, float& y, float w, const std::string& left,
                          const std::string& right, bool mark);

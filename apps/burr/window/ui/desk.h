@@ -43,7 +43,7 @@ class Desk {
   std::vector<std::string> troubles;  // about the settings file and stereo; shown once
   Page page = Page::none;             // the page that is shown now
   std::string message;                // start and import pages: the error that is shown
-  std::string told;  // start page: a line that is no error, until it is clicked away
+  std::string news;  // start page: a line that is no error, until it is clicked away
   // What a page that was left still has under way, looked at in each picture; true: it has ended.
   std::vector<std::function<bool()>> under_way;
   std::string store;     // of learners, as the user named it; empty: the usual one

@@ -121,18 +121,18 @@ struct Leader::Connection {
 
   Writer<WrenchStamped>& force() { return to_body ? body : spatial; }
 
-  void take_state(const OperatingState& told) {
+  void take_state(const OperatingState& now) {
     stated = true;
-    state.assign(told.state_ != nullptr ? told.state_ : "");
-    homed = told.is_homed_;
-    busy = told.is_busy_;
+    state.assign(now.state_ != nullptr ? now.state_ : "");
+    homed = now.is_homed_;
+    busy = now.is_busy_;
   }
 
   // Takes all messages except the pose.
   void listen() {
     if (!stated)
-      while (const OperatingState* told = happened.take()) take_state(*told);
-    while (const OperatingState* told = happens.take()) take_state(*told);
+      while (const OperatingState* next = happened.take()) take_state(*next);
+    while (const OperatingState* next = happens.take()) take_state(*next);
     while (const Bool* closed = gripper.take()) press(0, closed->data_);
     while (const Joy* joy = clutch.take()) press(1, is_pressed(*joy));
     while (const Joy* joy = coag.take()) pedal = is_pressed(*joy) ? 1 : 0;

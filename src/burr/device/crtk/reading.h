@@ -12,8 +12,8 @@ namespace burr::device::crtk {
 
 // False: the pose cannot be true, or CRTK marks it as not valid (its stamp is 0); `hand` is
 // unchanged.
-[[nodiscard]] bool take_place(const PoseStamped& told, HandState& hand) BURR_RT;
+[[nodiscard]] bool take_place(const PoseStamped& message, HandState& hand) BURR_RT;
 // Likewise for the velocity; a velocity that is not valid becomes zero.
-[[nodiscard]] bool take_speed(const TwistStamped& told, HandState& hand) BURR_RT;
+[[nodiscard]] bool take_speed(const TwistStamped& message, HandState& hand) BURR_RT;
 
 }  // namespace burr::device::crtk

@@ -159,9 +159,9 @@ Status Inverse::reach() {
   connection_.reset();
   host_ = settings_.host.empty() ? from_environment("HAPLY_WS_HOST", "127.0.0.1") : settings_.host;
   std::vector<int> ports(std::begin(kPorts), std::end(kPorts));
-  const auto told = port_from_environment("HAPLY_WS_PORT");
-  if (!told && settings_.port == 0) return told.error();
-  if (settings_.port > 0 || *told > 0) ports = {settings_.port > 0 ? settings_.port : *told};
+  const auto port = port_from_environment("HAPLY_WS_PORT");
+  if (!port && settings_.port == 0) return port.error();
+  if (settings_.port > 0 || *port > 0) ports = {settings_.port > 0 ? settings_.port : *port};
 
   std::string trouble;
   int answers = 0;  // the port at which another program answers
@@ -251,10 +251,10 @@ Status Inverse::find_force_key() {
 
 Result<DeviceSpec> Inverse::connect() {
   disconnect();
-  const auto told = port_from_environment("HAPLY_EVENTS_PORT");
-  if (!told && settings_.events_port == 0) return told.error();
+  const auto port = port_from_environment("HAPLY_EVENTS_PORT");
+  if (!port && settings_.events_port == 0) return port.error();
   const int events_port = settings_.events_port > 0 ? settings_.events_port
-                          : *told > 0               ? *told
+                          : *port > 0               ? *port
                                                     : kEventsPort;
   Status met = read_first_state();
   const auto anothers = [&] { return met.ok() && connection_->state.in_use && !may_be_shared(); };
@@ -349,12 +349,12 @@ Wire::Read Inverse::read(HandState& hand) BURR_RT {
       state.grip_there ? Quat((turn() * state.grip * handle).normalized()) : upright;
   hand.buttons = state.grip_there ? state.buttons : 0;
   const bool braked = connection.events->braked();
-  const char* told = connection.events->words();
-  note(braked              ? told
+  const char* event = connection.events->words();
+  note(braked              ? event
        : !state.calibrated ? "is not calibrated; move it as its lights show."
        : !state.powered    ? "has no power; connect its power supply."
        : !state.ready      ? "is not ready yet; wait for its light."
-       : told != nullptr   ? told
+       : event != nullptr  ? event
        : state.grip_there && !state.grip_awake
            ? "has a grip that is asleep; press one of its buttons."
        : state.grip_there && state.battery < 0.1 ? "has a grip with an empty battery; charge it."

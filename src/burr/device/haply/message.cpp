@@ -89,13 +89,13 @@ const json* entry_of(const json& all, const std::string& id) {
 
 constexpr const char* kGrips[] = {"verse_grip", "wireless_verse_grip", "custom_verse_grip"};
 
-// told: set to true if the message contains any grips.
-const json* grip_of(const json& all, const std::string& wanted, bool& told) {
+// any: set to true if the message contains any grips.
+const json* grip_of(const json& all, const std::string& wanted, bool& any) {
   const json* away = nullptr;
   for (const char* kind : kGrips) {
     const json* grips = at(all, kind);
     if (grips == nullptr || !grips->is_array()) continue;
-    told = true;
+    any = true;
     for (const json& grip : *grips) {
       if (!wanted.empty() && text_at(grip, "device_id") != wanted) continue;
       const json* status = at(grip, "status");
@@ -181,10 +181,10 @@ Read read_state(std::string_view text, const std::string& id, const std::string&
     if (!take(*status, "calibrated", state.calibrated) || !take(*status, "ready", state.ready) ||
         !take(*status, "power_supply", state.powered) || !take(*status, "in_use", state.in_use))
       return Read::nonsense;
-  bool told = false;
-  if (const json* held = grip_of(all, grip, told)) {
+  bool any = false;
+  if (const json* held = grip_of(all, grip, any)) {
     if (!take_grip(*held, state)) return Read::nonsense;
-  } else if (told) {  // it was there and is no longer: none of its buttons stays pressed
+  } else if (any) {  // it was there and is no longer: none of its buttons stays pressed
     state.grip_there = false;
     state.buttons = 0;
   }

@@ -92,23 +92,23 @@ Result<DeviceSpec> Touch::start() {
   }
   const char* name = settings_.name.empty() ? nullptr : settings_.name.c_str();
   handle_ = hd_->InitDevice(name);
-  ErrorInfo told = hd_->GetError();
+  ErrorInfo fault = hd_->GetError();
   if (handle_ == kNoDevice && name == nullptr) {  // old drivers need the device's name
     handle_ = hd_->InitDevice("Default PHANToM");
     const ErrorInfo again = hd_->GetError();
-    if (handle_ != kNoDevice) told = again;
+    if (handle_ != kNoDevice) fault = again;
   }
   const std::string which =
       settings_.name.empty() ? "the default Touch" : "the Touch \"" + settings_.name + "\"";
-  if (handle_ == kNoDevice || (told.code != kNoError && !is_about_force(told.code))) {
+  if (handle_ == kNoDevice || (fault.code != kNoError && !is_about_force(fault.code))) {
     if (handle_ != kNoDevice) hd_->DisableDevice(handle_);
     handle_ = kNoDevice;
     return error(
         Trouble::io,
-        told.code == kNoError
+        fault.code == kNoError
             ? fmt::format("{} was not found; plug it in, and check that Touch Setup lists it",
                           which)
-            : fmt::format("{} cannot be used: {}", which, words(told.code)));
+            : fmt::format("{} cannot be used: {}", which, words(fault.code)));
   }
   hd_->MakeCurrentDevice(handle_);
   DeviceSpec spec = describe();

@@ -67,7 +67,7 @@ CodeSequenceMacro code_of(const json& code) {
 
 // The job, and where its labels lie.
 struct Job {
-  json told;
+  json header;
   const std::uint8_t* labels = nullptr;
   std::size_t columns = 0, rows = 0, slices = 0;
 
@@ -88,18 +88,18 @@ Job read_job() {
   std::memcpy(&length, bytes, sizeof length);
   if (length > size - sizeof length) throw std::runtime_error("burr-seg was told too little");
   Job job;
-  job.told = json::from_cbor(bytes + sizeof length, bytes + sizeof length + length);
+  job.header = json::from_cbor(bytes + sizeof length, bytes + sizeof length + length);
   job.labels = bytes + sizeof length + length;
-  job.columns = job.told.at("size").at(0).get<std::size_t>();
-  job.rows = job.told.at("size").at(1).get<std::size_t>();
-  job.slices = job.told.at("size").at(2).get<std::size_t>();
+  job.columns = job.header.at("size").at(0).get<std::size_t>();
+  job.rows = job.header.at("size").at(1).get<std::size_t>();
+  job.slices = job.header.at("size").at(2).get<std::size_t>();
   if (size - sizeof length - length != job.columns * job.rows * job.slices)
     throw std::runtime_error("burr-seg belongs to another version of burr; install burr again");
   return job;
 }
 
 std::unique_ptr<DcmSegmentation> empty_segmentation(const Job& job) {
-  const OFString version = text_of(job.told["version"]);
+  const OFString version = text_of(job.header["version"]);
   const IODGeneralEquipmentModule::EquipmentInfo equipment("burr", "burr", "none", version);
   const ContentIdentificationMacro content("1", "SEGMENTATION", "Labels written by burr", "");
   DcmSegmentation* made = nullptr;
@@ -108,7 +108,7 @@ std::unique_ptr<DcmSegmentation> empty_segmentation(const Job& job) {
                                                    content),
          "a segmentation cannot be made");
   std::unique_ptr<DcmSegmentation> seg(made);
-  const json& uids = job.told["uids"];
+  const json& uids = job.header["uids"];
   demand(seg->getFrameOfReference().setFrameOfReferenceUID(text_of(uids["frame_of_reference"])),
          "the frame of reference of the scan is no UID");
   demand(seg->getSeries().setSeriesNumber("300"), "the number of the series");
@@ -125,7 +125,7 @@ std::unique_ptr<DcmSegmentation> empty_segmentation(const Job& job) {
 }
 
 void add_geometry(const Job& job, DcmSegmentation& seg) {
-  const json &spacing = job.told["spacing"], &axes = job.told["axes"];
+  const json &spacing = job.header["spacing"], &axes = job.header["axes"];
   FGPixelMeasures measures;
   demand(measures.setPixelSpacing(decimal(spacing[1]) + "\\" + decimal(spacing[0])),
          "the distance of the voxels");
@@ -140,12 +140,12 @@ void add_geometry(const Job& job, DcmSegmentation& seg) {
 }
 
 void add_segments(const Job& job, DcmSegmentation& seg) {
-  const std::string by = job.told["by"].get<std::string>();
+  const std::string by = job.header["by"].get<std::string>();
   const auto kind = by == "AUTOMATIC" ? DcmSegTypes::SAT_AUTOMATIC
                     : by == "MANUAL"  ? DcmSegTypes::SAT_MANUAL
                                       : DcmSegTypes::SAT_SEMIAUTOMATIC;
   const OFString algorithm = by == "MANUAL" ? "" : "name";
-  for (const json& one : job.told["segments"]) {
+  for (const json& one : job.header["segments"]) {
     DcmSegment* segment = nullptr;
     demand(DcmSegment::create(segment, "name", code_of(one["category"]), code_of(one["type"]), kind,
                               algorithm),
@@ -171,8 +171,8 @@ std::vector<std::array<bool, 256>> labels_of_slices(const Job& job) {
 }
 
 std::size_t add_frames(const Job& job, DcmSegmentation& seg) {
-  const json &spacing = job.told["spacing"], &axes = job.told["axes"], &origin = job.told["origin"],
-             &segments = job.told["segments"];
+  const json &spacing = job.header["spacing"], &axes = job.header["axes"],
+             &origin = job.header["origin"], &segments = job.header["segments"];
   const auto has = labels_of_slices(job);
   std::vector<Uint32> place(job.slices, 0);  // among the slices with frames, from 1
   std::size_t all = 0;
@@ -214,16 +214,16 @@ std::size_t add_frames(const Job& job, DcmSegmentation& seg) {
 
 // The texts of the segments. The library takes all letters but those of ASCII for wrong, so it got others in their place.
 void add_texts(const Job& job, DcmDataset& set) {
-  const json& segments = job.told["segments"];
+  const json& segments = job.header["segments"];
   for (std::size_t n = 0; n < segments.size(); ++n) {
     DcmItem* item = nullptr;
     demand(set.findAndGetSequenceItem(DCM_SegmentSequence, item, static_cast<signed long>(n)),
            "a segment");
     demand(item->putAndInsertString(DCM_SegmentLabel, text_of(segments[n]["name"]).c_str()),
            "the name of a segment");
-    if (job.told["by"] != "MANUAL")
+    if (job.header["by"] != "MANUAL")
       demand(item->putAndInsertString(DCM_SegmentAlgorithmName,
-                                      text_of(job.told["algorithm"]).c_str()),
+                                      text_of(job.header["algorithm"]).c_str()),
              "the name of the method");
     for (const auto& [tag, what] :
          {std::pair{DCM_SegmentedPropertyCategoryCodeSequence, "category"},
@@ -239,14 +239,14 @@ void add_texts(const Job& job, DcmDataset& set) {
 // Patient and study, in UTF-8 as all other texts.
 void add_study(const Job& job, DcmDataset& set) {
   demand(set.putAndInsertString(DCM_SpecificCharacterSet, "ISO_IR 192"), "the letters");
-  const OFString letters = text_of(job.told["characters"]);
+  const OFString letters = text_of(job.header["characters"]);
   DcmSpecificCharacterSet convert;
   const bool other = !letters.empty() && letters != "ISO_IR 192" && letters != "ISO_IR 6";
   if (other)
     demand(convert.selectCharacterSet(letters),
            "the letters of the scan's patient cannot be read; leave the patient out, by "
            "`io::SegOptions::study`");
-  for (const json& one : job.told["study"]) {
+  for (const json& one : job.header["study"]) {
     const auto tag = one[0].get<Uint32>();
     const auto raw = one[1].get<std::string>();
     OFString text(raw.data(), raw.size());
@@ -263,8 +263,8 @@ void add_study(const Job& job, DcmDataset& set) {
 }
 
 void add_instance(const Job& job, DcmDataset& set) {
-  const json& uids = job.told["uids"];
-  const OFString date = text_of(job.told["date"]), time = text_of(job.told["time"]);
+  const json& uids = job.header["uids"];
+  const OFString date = text_of(job.header["date"]), time = text_of(job.header["time"]);
   const auto put = [&](const DcmTagKey& tag, const OFString& text) {
     demand(set.putAndInsertString(tag, text.c_str()), "what the file says of itself");
   };

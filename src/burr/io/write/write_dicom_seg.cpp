@@ -220,25 +220,25 @@ class Writer {
       return error(Trouble::io,
                    "the program burr-seg, which writes DICOM segmentations, is not beside "
                    "libburr.so; install burr again or give its path in BURR_SEG");
-    Handle told(::memfd_create("burr-seg-job", MFD_CLOEXEC));
+    Handle input(::memfd_create("burr-seg-job", MFD_CLOEXEC));
     out_ = Handle(::memfd_create("burr-seg-file", MFD_CLOEXEC));
     std::array<int, 2> ends = {-1, -1};
-    if (!told.open() || !out_.open()) return failed("memory cannot be had", errno);
+    if (!input.open() || !out_.open()) return failed("memory cannot be had", errno);
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) return failed("a pipe cannot be opened", errno);
     messages_ = Handle(ends[0]);
     Handle theirs(ends[1]);
     const std::vector<std::uint8_t> text = nlohmann::json::to_cbor(job);
     const std::uint64_t length = text.size();
-    if (!write_all(told.get(), &length, sizeof length) ||
-        !write_all(told.get(), text.data(), text.size()) ||
-        !write_all(told.get(), labels.data(), labels.size()))
+    if (!write_all(input.get(), &length, sizeof length) ||
+        !write_all(input.get(), text.data(), text.size()) ||
+        !write_all(input.get(), labels.data(), labels.size()))
       return failed("memory cannot be had", errno);
 
     pid_t child = -1;
     const int reason = base::start_helper(program, "burr-seg",
                                           {{base::kNothing, STDIN_FILENO},
                                            {out_.get(), STDOUT_FILENO},
-                                           {told.get(), kSegJob},
+                                           {input.get(), kSegJob},
                                            {theirs.get(), kSegMessages}},
                                           child);
     if (reason != 0) return failed("burr-seg cannot be started", reason);

@@ -86,7 +86,7 @@ void Headset::Work::changed(XrSessionState state) {
 bool Headset::Work::stop_waiting() {
   if (!waiting) return true;
   std::unique_lock lock(waiter->mutex);
-  if (!waiter->told.wait_for(lock, kPatience, [&] { return waiter->got.has_value(); }))
+  if (!waiter->wakes.wait_for(lock, kPatience, [&] { return waiter->got.has_value(); }))
     return false;
   waiter->got.reset();
   waiting = false;
@@ -164,10 +164,10 @@ std::optional<Headset::Now> Headset::begin(double wait_s) {
     std::unique_lock lock(w.waiter->mutex);
     if (!std::exchange(w.waiting, true)) {
       w.waiter->wanted = true;
-      w.waiter->told.notify_all();
+      w.waiter->wakes.notify_all();
     }
-    if (!w.waiter->told.wait_for(lock, std::chrono::duration<double>(wait_s),
-                                 [&] { return w.waiter->got.has_value(); }))
+    if (!w.waiter->wakes.wait_for(lock, std::chrono::duration<double>(wait_s),
+                                  [&] { return w.waiter->got.has_value(); }))
       return std::nullopt;
     got = *std::exchange(w.waiter->got, std::nullopt);
     w.waiting = false;
@@ -266,8 +266,8 @@ void Headset::Work::close() {
   if (thread.joinable()) {
     std::unique_lock lock(waiter->mutex);
     waiter->quit = true;
-    waiter->told.notify_all();
-    came_back = waiter->told.wait_for(lock, kPatience, [&] { return waiter->gone; });
+    waiter->wakes.notify_all();
+    came_back = waiter->wakes.wait_for(lock, kPatience, [&] { return waiter->gone; });
     lock.unlock();
     if (came_back)
       thread.join();

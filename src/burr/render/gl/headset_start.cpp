@@ -263,7 +263,7 @@ void Headset::Work::start_waiter() {
   thread = std::thread([w = waiter] {
     std::unique_lock lock(w->mutex);
     for (;;) {
-      w->told.wait(lock, [&] { return w->wanted || w->quit; });
+      w->wakes.wait(lock, [&] { return w->wanted || w->quit; });
       if (w->quit) break;
       w->wanted = false;
       lock.unlock();
@@ -272,10 +272,10 @@ void Headset::Work::start_waiter() {
       const XrResult code = w->wait(w->session, &info, &state);
       lock.lock();
       w->got = {code, state};
-      w->told.notify_all();
+      w->wakes.notify_all();
     }
     w->gone = true;
-    w->told.notify_all();
+    w->wakes.notify_all();
   });
 }
 

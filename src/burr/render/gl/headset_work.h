@@ -90,7 +90,7 @@ struct Headset::Work {
   // The runtime's wait on a thread of its own, which may never return: that thread uses only this.
   struct Waiter {
     std::mutex mutex;
-    std::condition_variable told;
+    std::condition_variable wakes;
     PFN_xrWaitFrame wait = nullptr;
     XrSession session = XR_NULL_HANDLE;
     bool wanted = false, quit = false, gone = false;
