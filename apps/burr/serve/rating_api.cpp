@@ -32,7 +32,7 @@ namespace study = school::study;
 
 constexpr std::size_t kMostMarks = 200;
 
-Response answer(const Json& content) {
+Response json_answer(const Json& content) {
   Response out;
   out.body = json_line(content);
   return out;
@@ -194,11 +194,11 @@ Response RatingDesk::next(const Request& request) {
               {"code", nullptr}};
   for (const school::RubricRow& one : *all)
     out["rubrics"].push_back({{"hash", one.hash}, {"name", one.name}, {"version", one.version}});
-  if (here.empty()) return answer(out);
+  if (here.empty()) return json_answer(out);
   out["code"] = code_for({rater, here[0].session, here[0].rubric_hash, here[0].case_name});
   pictures_.want(here[0].session);
   if (here.size() > 1) pictures_.want(here[1].session, false);
-  return answer(out);
+  return json_answer(out);
 }
 
 Response RatingDesk::product(const Request& request) {
@@ -221,7 +221,7 @@ Response RatingDesk::product(const Request& request) {
                                  {"wide_mm", one.wide_mm},
                                  {"width", one.width},
                                  {"height", one.height}});
-  return answer(out);
+  return json_answer(out);
 }
 
 Response RatingDesk::picture(const Request& request) {
@@ -254,7 +254,7 @@ Response RatingDesk::take_marks(const Request& request) {
     marking.marks.push_back({text_in(one, "item"), text_in(one, "mark"), text_in(one, "reason")});
   }
   if (const Status kept = school::mark(store_, marking); !kept) return refused_by(kept.error());
-  return answer({{"kept", marking.marks.size()}});
+  return json_answer({{"kept", marking.marks.size()}});
 }
 
 Response RatingDesk::agreement(const Request& request) {
@@ -268,7 +268,7 @@ Response RatingDesk::agreement(const Request& request) {
     if (rubric == nullptr && (wanted.empty() || wanted == one.hash)) rubric = &one;
   }
   if (rubric == nullptr)
-    return wanted.empty() ? answer(out) : net::refusal(404, "the store has no such rubric");
+    return wanted.empty() ? json_answer(out) : net::refusal(404, "the store has no such rubric");
   // thousands of samples: made again only where the store has changed
   const auto state = store_.database().rows(
       "SELECT (SELECT count(*) FROM rater_mark), (SELECT max(made_ms) FROM rater_mark), "
@@ -328,7 +328,7 @@ Response RatingDesk::standards() {
     }
     out["standards"].push_back(std::move(row));
   }
-  return answer(out);
+  return json_answer(out);
 }
 
 std::optional<Response> RatingDesk::answer(const Request& request) {

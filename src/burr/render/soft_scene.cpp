@@ -19,8 +19,9 @@
 namespace burr::render {
 namespace {
 
-// largest errors of its levels of detail [voxel]
-constexpr std::array<double, 3> kErrors = {0.15, 0.5, 1.5};
+// Largest errors of its levels of detail [voxel]. The first is 0: versions of meshoptimizer thin a mesh
+// differently, and a sheet along an edge of bone must look the same with each.
+constexpr std::array kErrors = {0.0, 0.15, 0.5, 1.5};
 
 struct Word {
   std::string_view word;
@@ -100,7 +101,7 @@ SoftStructure structure_of(const surface::Mesh& part, bool open, double voxel) {
     if (open) vertex.under |= kOpen;
     structure.box.extend(vertex.p.cast<double>());
   }
-  std::array<double, kErrors.size()> errors = kErrors;
+  auto errors = kErrors;
   for (double& e : errors) e *= voxel;
   structure.mesh = std::make_shared<const CoarseMesh>(coarser(std::move(all), errors));
   return structure;

@@ -2,7 +2,8 @@
 // and the materials of all tissues.
 //
 // Their surfaces come from the labels (surface/label_surface.h), which nothing cuts, so they are made
-// once and stay whole; then they are thinned by edge collapses, to an error of a seventh of a voxel.
+// once and stay whole. A picture at full quality draws them as they are; for others there are thinner
+// levels by edge collapses, from an error of a seventh of a voxel on.
 // Thread: any, while nobody writes the bone; no other thread may use the scene meanwhile. Cost: about
 // a second for a temporal bone; nothing to speak of where no voxel is labelled as soft.
 #pragma once
