@@ -6,6 +6,7 @@
 
 #include "burr/metrics/process.h"
 #include "burr/metrics/tremor.h"
+#include "burr/record/chain.h"
 #include "burr/record/player.h"
 #include "burr/record/schema.h"
 #include "burr/scoring/score.h"
@@ -31,6 +32,8 @@ class Recording {
   Recording(const std::string& path, std::string source)
       : player_(take(record::Player::open(path))), path_(path) {
     given_.source = std::move(source);
+    NoProgress quiet;
+    check(record::check_chain(*player_, quiet));
   }
 
   // While it lives, no other thread of Python reads this file.

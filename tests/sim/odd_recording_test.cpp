@@ -110,6 +110,43 @@ TEST_F(Odd, AReplayAsksForNoBrickThatIsNotThere) {
   }
 }
 
+// All forces times a tenth with the hashes left: the simulated hashes are those in the file, the values are not.
+TEST_F(Odd, ForcesThatWereChangedAreFoundThoughTheirHashesWereLeft) {
+  for (const double factor : {1.0, 0.1}) {
+    const auto bone = slab();
+    const std::string file = (folder / "s.mcap").string();
+    std::filesystem::remove(file);
+    record::Recorder recorder(1000);
+    ASSERT_TRUE(recorder.start(file, usual(*bone), nullptr).ok());
+    NoProgress quiet;
+    const auto recorded = settings_of(usual(*bone), "");
+    ASSERT_TRUE(recorded.ok());
+    device::ReplayedHand hand(recorded->device);
+    volume::IsoVertices surface(*bone, recorded->settings.surface, 1, quiet);
+    tick::Servo servo(*bone, surface, hand, recorded->settings.servo);
+    device::HandState state;
+    double felt = 0;
+    for (int n = 0; n < 50; ++n) {
+      state.world_from_tool.p = {0, 0, 3e-3 - 1e-4 * n};
+      hand.set(state);
+      tick::TickRow row = servo.tick(false);
+      felt = std::max(felt, row.contact.force.norm());
+      row.contact.force *= factor;
+      ASSERT_TRUE(recorder.ticks().push(row));
+    }
+    ASSERT_TRUE(recorder.finish().ok());
+    ASSERT_GT(felt, 0.1) << "the slab was not touched";
+    auto player = record::Player::open(file);
+    ASSERT_TRUE(player.ok()) << player.error().text;
+    const auto outcome = replay(**player, slab(), quiet);
+    ASSERT_TRUE(outcome.ok()) << outcome.error().text;
+    EXPECT_EQ(outcome->first_different_tick.has_value(), factor != 1) << outcome->difference;
+    if (factor != 1) {
+      EXPECT_NE(outcome->difference.find("do not give the hash"), std::string::npos);
+    }
+  }
+}
+
 TEST_F(Odd, APathThatCannotBeMeantIsRefusedWithItsLine) {
   const auto refusal = [&](const std::string& text) {
     const std::string file = (folder / "p.csv").string();

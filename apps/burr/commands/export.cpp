@@ -13,6 +13,7 @@
 #include "burr/io/export_part.h"
 #include "burr/io/read/read_scan.h"
 #include "burr/io/write/write_dicom_seg.h"
+#include "burr/record/chain.h"
 #include "burr/record/player.h"
 #include "burr/sim/move_pieces.h"
 #include "burr/workshop/open_bone.h"
@@ -110,6 +111,7 @@ Result<Bones> open_plain(const Options& options) {
 Result<Bones> open_recording(const Options& options) {
   auto player = record::Player::open(options.source);
   if (!player) return player.error();
+  if (const Status whole = record::check_chain(**player, progress()); !whole) return whole.error();
   Bones bones;
   auto before = workshop::bone_of(**player, options.volume, progress());
   if (!before) return before.error();

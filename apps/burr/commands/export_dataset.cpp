@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "burr/dataset/dataset.h"
+#include "burr/record/chain.h"
 #include "burr/record/player.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
@@ -113,6 +114,7 @@ Status export_dataset(const std::string& source, const scenario::BoneRecipe& vol
   if (!allowed) return allowed;
   auto player = record::Player::open(source);
   if (!player) return player.error();
+  if (const Status whole = record::check_chain(**player, progress); !whole) return whole.error();
   for (const std::string& name : dataset::files_of(**player, out, wanted)) {
     allowed = check_outputs(inputs, {{"--out", name, endings}});
     if (!allowed) return allowed;

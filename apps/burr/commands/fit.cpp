@@ -17,6 +17,7 @@
 #include "burr/fit/laws.h"
 #include "burr/fit/recorded_log.h"
 #include "burr/importing/materials.h"
+#include "burr/record/chain.h"
 #include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/outputs.h"
@@ -73,6 +74,8 @@ Result<fit::ForceLog> read_log(const Options& options, const std::string& path) 
   if (std::filesystem::path(path).extension() == ".mcap") {
     auto player = record::Player::open(path);
     if (!player) return player.error();
+    if (const Status whole = record::check_chain(**player, progress()); !whole)
+      return whole.error();
     return fit::log_of_recording(**player, 1e-3 * options.window_ms, options.material);
   }
   auto log = fit::read_force_log(path);

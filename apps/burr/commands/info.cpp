@@ -9,6 +9,7 @@
 
 #include "burr/base/printable.h"
 #include "burr/io/sandbox/fence.h"
+#include "burr/record/chain.h"
 #include "burr/record/player.h"
 #include "burr/report/piece_words.h"
 #include "burr/sim/move_pieces.h"
@@ -249,7 +250,9 @@ Status run_recording(const Options& options) {
     fmt::print("  pieces were moved; how they lie is not known: {}\n",
                in_options(moved.error()).text);
   for (const std::string& notice : player.notices()) fmt::print("  note: {}\n", in_options(notice));
-  if (!options.json) return fine();
+  // it is shown all the same, so that one can see what was changed
+  const Status unchanged = record::check_chain(player, progress());
+  if (!options.json) return unchanged;
   nlohmann::json out = {
       {"burr_version", info.burr_version},
       {"seconds", player.seconds()},
@@ -258,6 +261,7 @@ Status run_recording(const Options& options) {
       {"embedded", info.embedded},
       {"phantom", phantom.empty() ? nlohmann::json(nullptr) : nlohmann::json(phantom)},
       {"notices", in_options(player.notices())},
+      {"unchanged", unchanged.ok()},
       {"case", nullptr}};
   out.update(session_json(player));
   out["pieces"] =
@@ -276,7 +280,7 @@ Status run_recording(const Options& options) {
                    {"spare", work_case->spare}};
   }
   fmt::print("{}\n", json_line(out));
-  return fine();
+  return unchanged;
 }
 
 Status run(const Options& options) {

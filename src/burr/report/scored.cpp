@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "burr/record/chain.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/recorded_bone.h"
@@ -63,6 +64,7 @@ Result<Judged> judged_by(const std::string& recording, const std::string& rubric
 
 Result<Scored> scored(Judged judged, const scenario::BoneRecipe& volume, Progress& progress) {
   record::Player& player = *judged.player;
+  if (const Status whole = record::check_chain(player, progress); !whole) return whole.error();
   auto before = workshop::bone_of(player, volume, progress);
   if (!before) return before.error();
   auto after = volume::copy_of(**before);
