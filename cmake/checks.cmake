@@ -59,7 +59,9 @@ if(Python3_FOUND)
     set_tests_properties(school_xapi school_forget serve_attacked PROPERTIES TIMEOUT 900 LABELS long)
     # DICOM segmentations, read by programs of others
     add_test(NAME io_segments_elsewhere COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/io/segments_elsewhere.py $<TARGET_FILE:burr_program>)
-    set_tests_properties(io_segments_elsewhere PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+    # contours that pydicom writes, and an even-odd rule in numpy
+    add_test(NAME io_contours_elsewhere COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/io/contours_elsewhere.py $<TARGET_FILE:burr_program>)
+    set_tests_properties(io_segments_elsewhere io_contours_elsewhere PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
     # thousands of sessions: shards, kills, engines; and a cluster of Slurm on this computer
     add_test(NAME batch COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/batch/batch_test.py $<TARGET_FILE:burr_program>)
     add_test(NAME batch_slurm COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/batch/slurm_test.py $<TARGET_FILE:burr_program>)

@@ -350,6 +350,11 @@ void dicom() {
   seed("dicom_seg", "label_map",
        "w=1.2.840.10008.5.1.4.1.1.66.7\nt=LABELMAP\nb=16\nq=7\n" + two + "f\np=0\\0\\1\nf\nx\n" +
            string("\1\0\7\0\2\1", 6));
+  seed("dicom_contours", "square", "c\nd=1\\1\\2\\6\\1\\2\\6\\5\\2\\1\\5\\2\nc\ns\n");
+  seed("dicom_contours", "leaning",
+       "d=1\\1\\1\\6\\1\\2\\6\\5\\4\\1\\5\\3\nc\nd=1\\1\\2\\6\\1\\3\\6\\5\\5\\1\\5\\4\nc\ns\nn=2\n"
+       "i=EXTERNAL\nh=255\\0\\9\nt=POINT\nd=1\\2\\3\nc\nt=CLOSEDPLANAR_XOR\nd="
+       "4\\0\\0\\4\\6\\0\\4\\6\\5\nw=2\nc\ns\n");
   seed("dicom_seg", "silent", "f\np=0\\0.2\\1\nf\np=0\\0.4\\2\nf\nx\n\xFF\x0F");
 }
 

@@ -433,6 +433,73 @@ TEST_F(DicomSeg, BesideItsScan) {
   EXPECT_EQ(none.error().trouble, Trouble::usage);
 }
 
+// One object for each structure, with frames only where it is, becomes the label map of both.
+TEST_F(DicomSeg, SeveralObjectsBecomeOneLabelMap) {
+  SegFile box = two(), ball = two();
+  box.segments = {{1, "Mandible", "", "", "", ""}};
+  box.frames = {{1, 1}, {1, 2}, {1, 3}, {1, 4}};
+  box.series = "1.2.71";
+  ball.segments = {{1, "Nerve", "", "", "", ""}};
+  ball.frames.clear();
+  for (int k = 2; k <= 8; ++k) ball.frames.push_back({1, k});
+  ball.at = [](int, int i, int j, int k) { return in_ball(i, j, k) ? 1 : 0; };
+  ball.series = "1.2.72";
+  const auto write = [&] {
+    box.write(path("a.dcm"));
+    ball.write(path("b.dcm"));
+  };
+  write();
+  const auto scan = read_path(folder.string());
+  ASSERT_TRUE(scan.ok()) << scan.error().text;
+  EXPECT_EQ(scan->size.z(), 8) << "slices 1 to 8";
+  ASSERT_EQ(scan->label_names.size(), 2U);
+  EXPECT_EQ(scan->label_names[0].name, "Mandible");
+  EXPECT_EQ(scan->label_names[1].name, "Nerve");
+  int boxes = 0, balls = 0, shared = 0;
+  for (int k = 0; k < kSlices; ++k)
+    for (int j = 0; j < 11; ++j)
+      for (int i = 0; i < 13; ++i) {
+        boxes += in_box(i, j, k) ? 1 : 0;
+        balls += in_ball(i, j, k) ? 1 : 0;
+        shared += in_box(i, j, k) && in_ball(i, j, k) ? 1 : 0;
+      }
+  ASSERT_NE(boxes, balls);
+  EXPECT_EQ(wrong(*scan,
+                  [&](int i, int j, int k) {
+                    const bool in_a = in_box(i, j, k + 1), in_b = in_ball(i, j, k + 1);
+                    if (in_a && in_b) return boxes < balls ? 1 : 2;
+                    return in_a ? 1 : in_b ? 2 : 0;
+                  }),
+            0);
+  EXPECT_TRUE(says(*scan, "Structures overlap in " + std::to_string(shared) + " voxels"));
+  EXPECT_TRUE(says(*scan, "2 segmentations became one label map, numbered 1 to 2"));
+  ASSERT_EQ(scan->series.size(), 3U);
+  EXPECT_EQ(scan->series[2], "#3: all 2 segmentations as one label map");
+  EXPECT_EQ(scan->series_taken, 2);
+  ReadOptions options;
+  options.series = "#2";
+  const auto second = read_path(folder.string(), options);
+  ASSERT_TRUE(second.ok()) << second.error().text;
+  EXPECT_EQ(second->label_names[0].name, "Nerve");
+  // two of one name get the names of their files
+  ball.segments[0].label = "Mandible";
+  write();
+  const auto twins = read_path(folder.string());
+  ASSERT_TRUE(twins.ok());
+  EXPECT_EQ(twins->label_names[1].name, "Mandible (b.dcm)");
+  // on other voxels they cannot be one map: the first is read, and it is said why
+  ball.spacing = "0.5\\0.5";
+  write();
+  const auto first = read_path(folder.string());
+  ASSERT_TRUE(first.ok()) << first.error().text;
+  EXPECT_EQ(first->label_names.size(), 1U);
+  EXPECT_EQ(first->series_taken, 0);
+  EXPECT_TRUE(says(*first, "a.dcm and b.dcm have different voxels"));
+  EXPECT_TRUE(says(*first, "#1 is used"));
+  options.series = "#3";
+  EXPECT_FALSE(read_path(folder.string(), options).ok());
+}
+
 // A liver that dcmqi wrote, and the same cut to 510 x 510 pixels, whose frames begin within a byte,
 // and with deflated frames.
 TEST_F(DicomSeg, OneLiverThreeTimes) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """DICOM segmentations that `burr export` writes, read by programs of others: pydicom agrees with .seg.nrrd voxel by voxel and in
-its place; dciodvfy finds no error; what is refused is refused in one sentence and leaves no file.
+its place, bits and label maps; dciodvfy finds no error; what is refused is refused in one sentence and leaves no file.
 
     tests/io/segments_elsewhere.py BURR         exit code 77: pydicom is not here
 """
@@ -85,6 +85,43 @@ def agrees(folder, *words):
     return file
 
 
+def label_map(folder, *words):
+    """The same source as a binary segmentation and as a label map, by the rules of Supplement 243 and as highdicom writes them."""
+    told = json.loads(burr("export", *words, "--seg-kind", "labelmap", "--out", folder / "map.dcm", "--json", "--force").splitlines()[-1])
+    burr("export", *words, "--out", folder / "map.seg.nrrd", "--force")
+    labels, step, origin = read_nrrd(folder / "map.seg.nrrd")
+    file = pydicom.dcmread(folder / "map.dcm")
+    assert file.SOPClassUID == file.file_meta.MediaStorageSOPClassUID == "1.2.840.10008.5.1.4.1.1.66.7"
+    assert file.Modality == "SEG" and file.SegmentationType == "LABELMAP" and file.get("SegmentsOverlap", "NO") == "NO"
+    assert (file.BitsAllocated, file.BitsStored, file.HighBit, file.PixelRepresentation, file.SamplesPerPixel) == (8, 8, 7, 0, 1)
+    assert file.PhotometricInterpretation == "MONOCHROME2" and file.PixelPaddingValue == 0
+    numbers = [int(s.SegmentNumber) for s in file.SegmentSequence]
+    assert numbers == sorted(set(numbers)) and numbers[0] == 0 and file.SegmentSequence[0].SegmentLabel == "Background"
+    assert file.SegmentSequence[0].SegmentedPropertyTypeCodeSequence[0].CodeValue == "125040"
+    assert numbers[1:] == [one["number"] for one in told["segments"]] == [one["label"] for one in told["segments"]]
+    # one dimension, the place of the slice; every frame at another place, evenly and without a gap
+    assert [d.DimensionIndexPointer for d in file.DimensionIndexSequence] == [0x00200032] and file.DimensionOrganizationType == "3D"
+    organizations = {o.DimensionOrganizationUID for o in file.DimensionOrganizationSequence}
+    assert {d.DimensionOrganizationUID for d in file.DimensionIndexSequence} == organizations
+    assert "SegmentIdentificationSequence" not in file.SharedFunctionalGroupsSequence[0]
+    pixels = numpy.asarray(file.pixel_array).reshape(-1, file.Rows, file.Columns)
+    assert len(pixels) == int(file.NumberOfFrames) == len(file.PerFrameFunctionalGroupsSequence)
+    back, slices = numpy.zeros_like(labels), []
+    for n, (group, frame) in enumerate(zip(file.PerFrameFunctionalGroupsSequence, pixels)):
+        assert "SegmentIdentificationSequence" not in group
+        assert int(numpy.atleast_1d(group.FrameContentSequence[0].DimensionIndexValues)[0]) == n + 1
+        place = numpy.array([float(v) for v in group.PlanePositionSequence[0].ImagePositionPatient])
+        k = int(round(numpy.dot(place - origin, step[2]) / numpy.dot(step[2], step[2])))
+        assert numpy.allclose(origin + k * step[2], place, atol=1e-5), (place, k)
+        slices.append(k)
+        back[k] = frame
+    assert slices == list(range(slices[0], slices[0] + len(slices)))
+    assert (back == labels).all() and set(numpy.unique(back)) <= set(numbers), f"{int((back != labels).sum())} voxels differ"
+    # burr reads it as it reads the other kind
+    again = burr("export", folder / "map.dcm", "--part", "labels", "--seg-kind", "labelmap", "--out", folder / "again.dcm", "--force")
+    assert (numpy.asarray(pydicom.dcmread(folder / "again.dcm").pixel_array).reshape(pixels.shape) == pixels).all(), again
+
+
 def no_errors(path):
     """dciodvfy, of dicom3tools, if it is here."""
     if shutil.which("dciodvfy") is None:
@@ -105,6 +142,7 @@ def refuses(folder):
     out = folder / "no.dcm"
     for words, code, said in (
             (["phantom:ball", "--out", folder / "no.stl", "--no-patient"], 2, "are for a DICOM segmentation"),
+            (["phantom:ball", "--out", folder / "no.stl", "--seg-kind", "labelmap"], 2, "are for a DICOM segmentation"),
             (["phantom:ball", "--out", folder / "no.stl", "--part", "labels"], 2, "--part labels writes the labels of a file as DICOM"),
             (["phantom:ball", "--out", out, "--part", "labels"], 2, "a phantom is bone from the start"),
             (["phantom:ball", "--out", out, "--part", "pieces"], 2, "DICOM holds all segments in one"),
@@ -113,6 +151,7 @@ def refuses(folder):
             (["phantom:ball", "--out", out, "--part", "removed"], 2, "nothing has been removed"),
             ([grey, "--out", out, "--part", "labels"], 65, "is a grey scan, which has no labels"),
             ([ball, "--out", out, "--tissues", folder / "no.toml"], 65, "check digit"),
+            ([ball, "--out", out, "--tissues", folder], 2, "is a folder and no table of labels"),
             ([ball, "--out", out, "--study-of", grey], 65, "belongs to no study"),
             ([ball, "--out", folder / "none" / "no.dcm"], 74, "does not exist"),
     ):
@@ -133,6 +172,7 @@ def main():
         file = agrees(folder, "phantom:tooth", "--segmented-by", "manual")
         assert {s.SegmentAlgorithmType for s in file.SegmentSequence} == {"MANUAL"} and file.PatientName == ""
         no_errors(folder / "a.dcm")
+        label_map(folder, "phantom:tooth")
         # labels in, labels out, with a code
         (folder / "t.toml").write_text(TABLE)
         burr("export", "phantom:ball", "--out", folder / "ball.seg.nrrd")

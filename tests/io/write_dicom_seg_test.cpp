@@ -87,7 +87,7 @@ class WriteDicomSeg : public test::FolderTest {
     EXPECT_FALSE(says(got.notices, "overlap"));
     ASSERT_EQ(got.label_names.size(), written.segments.size());
     for (std::size_t n = 0; n < written.segments.size(); ++n) {
-      EXPECT_EQ(got.label_names[n].value, static_cast<int>(n) + 1);
+      EXPECT_EQ(got.label_names[n].value, written.segments[n].number);
       EXPECT_EQ(got.label_names[n].name, written.segments[n].name);
     }
   }
@@ -119,6 +119,38 @@ TEST_F(WriteDicomSeg, ComesBackToTheBit) {
   for (std::size_t n = 0; n < 2; ++n)
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_NEAR(got->label_names[n].colour[c], scan.label_names[n].colour[c], 0.01);
+}
+
+TEST_F(WriteDicomSeg, ALabelMapKeepsItsNumbersAndHasABackground) {
+  const Scan scan = labels_askew();
+  SegOptions options;
+  options.kind = SegKind::label_map;
+  options.codes[2].type = DicomCode{"91609006", "SCT", "Mandible"};
+  const auto written = write(scan, options);
+  ASSERT_TRUE(written.ok()) << written.error().text;
+  ASSERT_EQ(written->segments.size(), 3U);
+  for (const SegSegment& one : written->segments) EXPECT_EQ(one.number, one.label);
+  EXPECT_EQ(written->frames, 9U) << "slices 2 to 10, also the empty one between them";
+  const auto got = read("a.dcm");
+  ASSERT_TRUE(got.ok()) << got.error().text;
+  expect_same(scan, *written, *got);
+  EXPECT_FALSE(says(got->notices, "no frame")) << "each slice has its frame";
+  EXPECT_EQ(got->label_names[0].meaning, "Mandible SCT 91609006");
+  for (std::size_t n = 0; n < 2; ++n)
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(got->label_names[n].colour[c], scan.label_names[n].colour[c], 0.01);
+  const std::string file = content(path("a.dcm"));
+  for (const char* words : {"1.2.840.10008.5.1.4.1.1.66.7", "LABELMAP", "Background", "125040"})
+    EXPECT_NE(file.find(words), std::string::npos) << words;
+  // as a binary segmentation it is another file with the same voxels
+  ASSERT_TRUE(write(scan, {}, "b.dcm").ok());
+  const auto bits = read("b.dcm");
+  ASSERT_TRUE(bits.ok());
+  ASSERT_EQ(bits->labels.size(), got->labels.size());
+  std::size_t different = 0;
+  for (std::size_t v = 0; v < got->labels.size(); ++v)
+    different += (bits->labels[v] != 0) != (got->labels[v] != 0) ? 1 : 0;
+  EXPECT_EQ(different, 0U);
 }
 
 TEST_F(WriteDicomSeg, ColoursThereAndBack) {

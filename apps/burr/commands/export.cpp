@@ -154,7 +154,8 @@ Status check_parts(const Options& options) {
   const bool dicom = is_dicom_path(options.out);
   if (!dicom && options.dicom.any())
     return error(Trouble::usage,
-                 "--study-of, --no-patient, --uid-root, --segmented-by and --algorithm are for a "
+                 "--study-of, --no-patient, --uid-root, --segmented-by, --seg-kind and --algorithm "
+                 "are for a "
                  "DICOM segmentation; give --out a name that ends in .dcm, or leave them out");
   if (options.part == "labels" && !dicom)
     return error(Trouble::usage,

@@ -84,6 +84,11 @@ void add_dicom_options(CLI::App& command, DicomOptions& options) {
                   "with .dcm: how the labels came about (default: automatic for bone that burr "
                   "found by its grey level, otherwise semiautomatic)")
       ->check(CLI::IsMember({"automatic", "semiautomatic", "manual"}));
+  command
+      .add_option("--seg-kind", options.kind,
+                  "with .dcm: binary, one bit a voxel for each segment (default), or labelmap, one "
+                  "number a voxel (Label Map Segmentation, of 2024; fewer programs read it)")
+      ->check(CLI::IsMember({"binary", "labelmap"}));
   command.add_option("--algorithm", options.algorithm,
                      "with .dcm: name of the method that made the labels (default: burr and its "
                      "version)");
@@ -104,6 +109,7 @@ Result<io::SegOptions> seg_options(const DicomOptions& options, const scenario::
   seg.uid_root = options.uid_root;
   if (const auto root = io::new_uid(options.uid_root); !root) return root.error();
   seg.algorithm = options.algorithm;
+  if (options.kind == "labelmap") seg.kind = io::SegKind::label_map;
   const bool by_level = source != nullptr && source->labels.empty();
   seg.by = options.by == "manual" ? io::SegmentedBy::manual
            : options.by == "automatic" || (options.by.empty() && by_level)

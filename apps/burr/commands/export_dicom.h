@@ -21,10 +21,10 @@ class App;
 namespace burr::app {
 
 struct DicomOptions {
-  std::string study_of, uid_root, by, algorithm;
+  std::string study_of, uid_root, by, algorithm, kind;
   bool no_patient = false;
   [[nodiscard]] bool any() const {
-    return no_patient || !(study_of + uid_root + by + algorithm).empty();
+    return no_patient || !(study_of + uid_root + by + algorithm + kind).empty();
   }
 };
 void add_dicom_options(CLI::App& command, DicomOptions& options);

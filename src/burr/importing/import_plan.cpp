@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include "burr/importing/cut_off.h"
 #include "burr/importing/grey.h"
@@ -305,7 +307,12 @@ void set_smooth(const io::Scan& scan, const scenario::BoneRecipe& recipe, Import
 Status plan_grey(const io::Scan& scan, const scenario::BoneRecipe& recipe,
                  const Materials& materials, Plan& plan) {
   ImportSummary& out = plan.summary;
-  if (!recipe.labels.empty())
+  std::error_code trouble;
+  if (std::filesystem::is_directory(recipe.labels, trouble))
+    out.notices.emplace_back(
+        "`labels` is a folder and no table of labels, so it was ignored; to use the masks in it, "
+        "give that folder in place of the scan.");
+  else if (!recipe.labels.empty())
     out.notices.emplace_back(
         "`labels` is a table of labels, but this scan has grey values; the table was ignored.");
   set_range(scan, out);

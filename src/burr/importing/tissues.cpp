@@ -5,6 +5,8 @@
 #include <safe_toml.h>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
@@ -225,6 +227,11 @@ Result<LabelTissues> label_tissues(const io::Scan& scan, const std::array<bool, 
   std::vector<io::Label> names = scan.label_names;
   const std::string file = io::short_name(table_path);
   std::string table;  // in TOML; empty: there is none, or it was a list of another program
+  if (std::error_code trouble; std::filesystem::is_directory(table_path, trouble))
+    return error(Trouble::usage,
+                 fmt::format("`labels`: {} is a folder and no table of labels; to use the masks in "
+                             "it, give that folder in place of the scan",
+                             file));
   if (!table_path.empty()) {
     auto text = base::text_of_file(table_path, std::uintmax_t{1} << 20,
                                    "a table of labels; check that this is the right file");

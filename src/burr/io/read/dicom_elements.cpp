@@ -40,6 +40,26 @@ constexpr Tag kOfStudy[] = {0x00080005, 0x00080020, 0x00080030, 0x00080050, 0x00
 
 bool of_study(Tag tag) { return std::binary_search(std::begin(kOfStudy), std::end(kOfStudy), tag); }
 
+// Of a structure set, PS3.3 C.8.8.5, C.8.8.6 and C.8.8.8: its sequences (referenced frame of reference, study and series;
+// the structures, their contours, what they are and its code), and the values in their items.
+constexpr Tag kStructureSequences[] = {0x30060010, 0x30060012, 0x30060014, 0x30060020,
+                                       0x30060039, 0x30060040, 0x30060080, 0x30060086};
+constexpr Tag kContourData = 0x30060050;
+constexpr Tag kOfStructures[] = {0x30060022, 0x30060024,   0x30060026, 0x3006002A, 0x30060042,
+                                 0x30060044, kContourData, 0x30060084, 0x300600A4};
+
+bool structure_sequence(Tag tag) {
+  return std::binary_search(std::begin(kStructureSequences), std::end(kStructureSequences), tag);
+}
+bool of_structures(Tag tag) {
+  return std::binary_search(std::begin(kOfStructures), std::end(kOfStructures), tag);
+}
+// The longest value that is kept: a contour may have many points.
+std::uint64_t longest(Tag tag) {
+  constexpr std::uint64_t kMost = 65536, kMostOfContour = std::uint64_t{1} << 28;
+  return tag == kContourData ? kMostOfContour : kMost;
+}
+
 // Sequences inside a functional group whose values are not those of the frame: private ones, and
 // references to other pictures.
 bool of_others(Tag tag) { return (tag >> 16) % 2 == 1 || (tag >> 16) == 8; }
@@ -47,6 +67,11 @@ bool of_others(Tag tag) { return (tag >> 16) % 2 == 1 || (tag >> 16) == 8; }
 }  // namespace
 
 std::span<const Tag> dicom_tags_of_study() { return kOfStudy; }
+
+// Elements that are wanted as values, and so are no sequences.
+bool DicomWalker::is_value(Tag tag) const {
+  return wanted(tag) || (structure_set && of_structures(tag));
+}
 
 std::uint64_t DicomWalker::walk(std::uint64_t at, std::uint64_t end, int depth, Values* into,
                                 bool only_meta) {
@@ -63,12 +88,13 @@ std::uint64_t DicomWalker::walk(std::uint64_t at, std::uint64_t end, int depth, 
     std::uint64_t length = 0, head = 8;
     bool sequence = false;
     // inside the groups of frames, and these groups themselves
-    const bool groups =
-        depth > 0 ? into != nullptr : tag == kShared || tag == kPerFrame || tag == kSegments;
+    const bool groups = depth > 0 ? into != nullptr
+                                  : tag == kShared || tag == kPerFrame || tag == kSegments ||
+                                        (structure_set && structure_sequence(tag));
     if (!meta_part && !explicit_vr) {
       length = u32(at + 4);
       sequence = length == kUndefined && (tag != kPixelData || depth > 0);
-      sequence = sequence || (groups && !wanted(tag) && begins_with_item(at + head, length));
+      sequence = sequence || (groups && !is_value(tag) && begins_with_item(at + head, length));
       if (cut) return at;
     } else {
       const std::string vr(reinterpret_cast<const char*>(&bytes_[at + 4]), 2);
@@ -85,8 +111,8 @@ std::uint64_t DicomWalker::walk(std::uint64_t at, std::uint64_t end, int depth, 
       }
       sequence = vr == "SQ" || (length == kUndefined && (tag != kPixelData || depth > 0));
       const bool unknown =
-          vr == "UN" &&
-          (length == kUndefined || (groups && !wanted(tag) && begins_with_item(at + head, length)));
+          vr == "UN" && (length == kUndefined ||
+                         (groups && !is_value(tag) && begins_with_item(at + head, length)));
       if (cut) return at;
       if (unknown) {  // implicit inside, PS3.5 6.2.2; some programs write explicit all the same
         const bool before = explicit_vr;
@@ -115,8 +141,8 @@ std::uint64_t DicomWalker::walk(std::uint64_t at, std::uint64_t end, int depth, 
           fmt::format("element ({:04x},{:04x}) is longer than the file, or the file is "
                       "cut off",
                       tag >> 16, tag & 0xFFFF));
-    const bool taken = wanted(tag) || (study && depth == 0 && of_study(tag));
-    if (into != nullptr && taken && length <= 65536) {
+    const bool taken = is_value(tag) || (study && depth == 0 && of_study(tag));
+    if (into != nullptr && taken && length <= longest(tag)) {
       if (at + head + length > bytes_.size()) {
         cut = true;
         return at;
@@ -191,6 +217,12 @@ std::uint64_t DicomWalker::items(Tag sequence, std::uint64_t at, std::uint64_t e
         sequence != kSegmentType)
       into = nullptr;
     Values* before = inside_;
+    const int item_before = item_;
+    if (structure_set && structure_sequence(sequence)) {
+      structure_items.push_back({sequence, item_, {}});
+      item_ = static_cast<int>(structure_items.size()) - 1;
+      into = &structure_items.back().values;
+    }
     inside_ = into;
     if (item == kUndefined) {
       at = walk(at + 8, end, depth + 1, into, false);
@@ -204,6 +236,7 @@ std::uint64_t DicomWalker::items(Tag sequence, std::uint64_t at, std::uint64_t e
       at += 8 + item;
     }
     inside_ = before;
+    item_ = item_before;
   }
   return open_end ? at : end;
 }

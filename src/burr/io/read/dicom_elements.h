@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <span>
 #include <string>
@@ -17,6 +18,13 @@ using Values = std::map<Tag, std::string>;  // raw bytes of the wanted elements
 // Patient and study: a walk keeps these elements only if DicomWalker::study is set.
 [[nodiscard]] std::span<const Tag> dicom_tags_of_study();
 
+// One item of a sequence of a structure set (RTSTRUCT, PS3.3 A.19).
+struct DicomItem {
+  Tag sequence = 0;
+  int parent = -1;  // the item that it lies in, of DicomWalker::structure_items; -1: none
+  Values values;
+};
+
 class DicomWalker {
  public:
   // total: size of the data set, of which `bytes` is the beginning
@@ -24,7 +32,9 @@ class DicomWalker {
       : bytes_(bytes), total_(total) {}
 
   bool explicit_vr = true, big_endian = false;
-  bool study = false;  // what is of the patient and the study is wanted too
+  bool study = false;                     // what is of the patient and the study is wanted too
+  bool structure_set = false;             // what is of a structure set is wanted too
+  std::deque<DicomItem> structure_items;  // in the order of the file; stay where they are
   Values top, shared;
   std::vector<Values> frames, segments;
   bool has_pixels = false, float_pixels = false, encapsulated = false, modality_lut = false;
@@ -48,12 +58,14 @@ class DicomWalker {
   std::uint64_t fail(std::string why);
   bool begins_with_item(std::uint64_t at, std::uint64_t length);
   [[nodiscard]] bool explicit_inside(std::uint64_t at) const;
+  [[nodiscard]] bool is_value(Tag tag) const;
   std::uint64_t items(Tag sequence, std::uint64_t at, std::uint64_t end, std::uint64_t length,
                       int depth);
 
   const std::vector<std::uint8_t>& bytes_;
   std::uint64_t total_;
   Values* inside_ = nullptr;
+  int item_ = -1;  // of structure_items: the one that is walked
 };
 
 // The text of an element without the padding; empty: it is not there.

@@ -112,11 +112,11 @@ class Facts {
 
   void of_segment(const Values& values, const std::string& letters, DicomSegment& segment) const {
     whole_bits(values, 0x00620004, 2, segment.number);
-    segment.label = utf8_of(dicom_text(values, 0x00620005), letters);
+    segment.label = dicom_utf8(dicom_text(values, 0x00620005), letters);
     segment.code = dicom_text(values, 0x00080100);
     if (segment.code.empty()) segment.code = dicom_text(values, 0x00080119);  // a long one
     segment.scheme = dicom_text(values, 0x00080102);
-    segment.meaning = utf8_of(dicom_text(values, 0x00080104), letters);
+    segment.meaning = dicom_utf8(dicom_text(values, 0x00080104), letters);
     const auto lab = values.find(0x0062000D);
     segment.has_colour = lab != values.end() && lab->second.size() == 6;
     for (std::size_t n = 0; n < 3 && segment.has_colour; ++n)
@@ -124,19 +124,6 @@ class Facts {
   }
 
  private:
-  // Letters of ISO 8859-1 as UTF-8, where Specific Character Set says that they are.
-  static std::string utf8_of(std::string text, const std::string& letters) {
-    if (letters.find("ISO_IR 100") == std::string::npos &&
-        letters.find("ISO 2022 IR 100") == std::string::npos)
-      return text;
-    std::string out;
-    for (const char c : text) {
-      const auto code = static_cast<unsigned char>(c);
-      if (code >= 0x80) out += static_cast<char>(0xC0 | code >> 6);
-      out += static_cast<char>(code >= 0x80 ? 0x80 | (code & 0x3F) : code);
-    }
-    return out;
-  }
   std::vector<double> decimals(const Values& values, Tag tag, std::size_t count, const char* name) {
     const auto found = values.find(tag);
     if (found == values.end()) return {};
@@ -272,6 +259,19 @@ std::string date_of(std::string text) {
 }
 
 }  // namespace
+
+std::string dicom_utf8(std::string text, const std::string& letters) {
+  if (letters.find("ISO_IR 100") == std::string::npos &&
+      letters.find("ISO 2022 IR 100") == std::string::npos)
+    return text;
+  std::string out;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x80) out += static_cast<char>(0xC0 | code >> 6);
+    out += static_cast<char>(code >= 0x80 ? 0x80 | (code & 0x3F) : code);
+  }
+  return out;
+}
 
 void take_dicom_facts(const DicomWalker& set, DicomHeader& header) {
   const Values& top = set.top;

@@ -90,6 +90,9 @@ struct DicomHeader {
 // GE's own transfer syntax: implicit, with big-endian pixels.
 inline constexpr const char* kGePrivate = "1.2.840.113619.5.2";
 
+// Letters of ISO 8859-1 as UTF-8, where `letters` (Specific Character Set) says that they are.
+[[nodiscard]] std::string dicom_utf8(std::string text, const std::string& letters);
+
 // Copies the facts of a data set into the header, whose transfer syntax is already there. Numbers that
 // are none are noted in it.
 void take_dicom_facts(const DicomWalker& set, DicomHeader& header);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <utility>
 
 #include "burr/base/printable.h"
@@ -66,8 +67,11 @@ std::string not_read(const std::filesystem::path& path) {
                      short_name(path));
 }
 
-// study: filled with what the file states of patient and study; nullptr: not read.
-Result<DicomHeader> read_header(const std::filesystem::path& path, DicomStudy* study) {
+using Look = std::function<void(const DicomWalker& set)>;
+
+// look: is shown the data set.
+Result<DicomHeader> read_header(const std::filesystem::path& path, bool study, bool structure_set,
+                                const Look& look) {
   const std::string file = short_name(path);
   const auto broken = [&](const std::string& why) {
     return error(fmt::format("{}: is a damaged DICOM file ({}); copy it again", file, why));
@@ -123,7 +127,8 @@ Result<DicomHeader> read_header(const std::filesystem::path& path, DicomStudy* s
       const auto letter = [&](std::uint64_t p) { return (*bytes)[p] >= 'A' && (*bytes)[p] <= 'Z'; };
       set.explicit_vr = letter(at + 4) && letter(at + 5);
     }
-    set.study = study != nullptr;
+    set.study = study;
+    set.structure_set = structure_set;
     set.walk(at, total, 0, &set.top, false);
     if (set.cut && !whole_file && !header.deflated) {
       part *= 8;
@@ -132,12 +137,7 @@ Result<DicomHeader> read_header(const std::filesystem::path& path, DicomStudy* s
     }
     header.damage = set.trouble;
     take_dicom_facts(set, header);
-    if (study != nullptr) {
-      study->characters = dicom_text(set.top, 0x00080005);
-      for (const Tag tag : dicom_tags_of_study())
-        if (tag != 0x00080005 && set.top.count(tag) != 0)
-          study->values[tag] = dicom_text(set.top, tag);
-    }
+    if (look) look(set);
     return header;
   }
 }
@@ -145,13 +145,28 @@ Result<DicomHeader> read_header(const std::filesystem::path& path, DicomStudy* s
 }  // namespace
 
 Result<DicomHeader> read_dicom_header(const std::filesystem::path& path) {
-  return read_header(path, nullptr);
+  return read_header(path, false, false, {});
 }
 
 Result<DicomStudy> read_dicom_study(const std::filesystem::path& path) {
   DicomStudy study;
-  if (auto header = read_header(path, &study); !header) return header.error();
+  const auto header = read_header(path, true, false, [&](const DicomWalker& set) {
+    study.characters = dicom_text(set.top, 0x00080005);
+    for (const Tag tag : dicom_tags_of_study())
+      if (tag != 0x00080005 && set.top.count(tag) != 0)
+        study.values[tag] = dicom_text(set.top, tag);
+  });
+  if (!header) return header.error();
   return study;
+}
+
+Status look_at_structures(const std::filesystem::path& path, const Look& look) {
+  const auto header = read_header(path, false, true, look);
+  if (!header) return header.error();
+  if (!header->damage.empty())
+    return error(fmt::format("{}: is a damaged DICOM file: {}; copy it again", short_name(path),
+                             header->damage));
+  return fine();
 }
 
 }  // namespace burr::io

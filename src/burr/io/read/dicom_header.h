@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,10 @@ namespace burr::io {
 
 // Whose file it is and to which study it belongs.
 [[nodiscard]] Result<DicomStudy> read_dicom_study(const std::filesystem::path& path);
+
+// Shows `look` the data set of a structure set (RTSTRUCT), with DicomWalker::structure_items. Error: damaged.
+[[nodiscard]] Status look_at_structures(const std::filesystem::path& path,
+                                        const std::function<void(const DicomWalker& set)>& look);
 
 // The stored pixel values of all frames (columns x rows x frames), before rescaling. Compressed
 // pixels are decompressed by GDCM. beyond: how many pixels of an uncompressed file have bits beyond

@@ -363,61 +363,6 @@ std::string one_line(const DicomHeader& h, std::size_t place) {
                                         : segments_in_words(h.segments.size()));
 }
 
-Result<std::optional<std::size_t>> choose_segmentation(const std::vector<DicomHeader>& all,
-                                                       const std::vector<std::string>& series,
-                                                       std::size_t volumes,
-                                                       const ReadOptions& options,
-                                                       const std::string& file, Scan& scan) {
-  if (all.empty()) return std::optional<std::size_t>();
-  constexpr std::size_t kNamed = 8;
-  std::string list;
-  for (std::size_t n = 0; n < std::min(all.size(), kNamed); ++n)
-    list += (n > 0 ? "; " : "") + one_line(all[n], volumes + n);
-  if (all.size() > kNamed) list += fmt::format("; and {} more", all.size() - kNamed);
-  if (!options.series.empty()) {
-    const std::size_t mark = std::min(options.series.find('#'), options.series.size());
-    const std::string uid = options.series.substr(0, mark);
-    const bool numbered = mark < options.series.size();
-    std::int64_t place = 0;
-    if (numbered && (!to_number(options.series.substr(mark + 1), place) || place < 1))
-      return std::optional<std::size_t>();  // choose() says what is wrong
-    if (uid.empty()) {
-      const auto n = static_cast<std::size_t>(place - 1);
-      if (n >= volumes && n - volumes < all.size()) return std::optional(n - volumes);
-      if (volumes > 0) return std::optional<std::size_t>();
-    }
-    const bool scan_fits =
-        !uid.empty() && std::any_of(series.begin(), series.end(),
-                                    [&](const std::string& s) { return s.rfind(uid, 0) == 0; });
-    if (scan_fits) return std::optional<std::size_t>();
-    std::vector<std::size_t> fits;
-    std::set<std::string> different;
-    for (std::size_t n = 0; n < all.size(); ++n)
-      if (!uid.empty() && all[n].series.rfind(uid, 0) == 0) {
-        fits.push_back(n);
-        different.insert(all[n].series);
-      }
-    if (different.size() == 1 && place <= static_cast<std::int64_t>(fits.size()))
-      return std::optional(fits[numbered ? static_cast<std::size_t>(place - 1) : 0]);
-    if (volumes > 0 && fits.empty()) return std::optional<std::size_t>();
-    return error(Trouble::usage, fmt::format("{}: {} series match `series` \"{}\"; there are {}",
-                                             file, different.size(), options.series, list));
-  }
-  if (volumes > 0) {
-    scan.notices.push_back(fmt::format("Beside the scan {} ({}); left out, choose with `series`.",
-                                       all.size() == 1
-                                           ? "lies a DICOM segmentation"
-                                           : fmt::format("lie {} DICOM segmentations", all.size()),
-                                       list));
-    return std::optional<std::size_t>();
-  }
-  if (all.size() > 1)
-    scan.notices.push_back(
-        fmt::format("{} segmentations found ({}); #1 is used, choose another with `series`.",
-                    all.size(), list));
-  return std::optional<std::size_t>(0);
-}
-
 Status read_segmentation(const DicomHeader& h, const ReadOptions& options, const std::string& file,
                          Scan& scan, Progress& progress) {
   scan.format = "DICOM segmentation";

@@ -9,9 +9,7 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
@@ -30,13 +28,6 @@ namespace burr::io {
 
 // For the list of series: kind, frames, size, number of segments.
 [[nodiscard]] std::string one_line(const DicomHeader& segmentation, std::size_t place);
-
-// The index of the segmentation that the options name, or of the first one where there is no volume.
-// Nothing: a volume is to be taken; if segmentations lie beside it, a notice says so. Segmentations
-// follow the volumes in the list that `--series "#2"` counts. series: UIDs of the volumes' series.
-[[nodiscard]] Result<std::optional<std::size_t>> choose_segmentation(
-    const std::vector<DicomHeader>& all, const std::vector<std::string>& series,
-    std::size_t volumes, const ReadOptions& options, const std::string& file, Scan& scan);
 
 // Reads it into the scan, whose notices stay.
 [[nodiscard]] Status read_segmentation(const DicomHeader& header, const ReadOptions& options,

@@ -15,6 +15,7 @@
 #include "burr/base/printable.h"
 #include "burr/io/read/archive.h"
 #include "burr/io/read/bytes.h"
+#include "burr/io/read/dicom_contours.h"
 #include "burr/io/read/dicom_seg.h"
 #include "burr/io/read/foreign.h"
 #include "burr/io/read/text.h"
@@ -47,11 +48,6 @@ Verdict not_a_slice(const DicomHeader& h) {
     return {fmt::format("is a damaged DICOM file: {}; copy it again", h.damage),
             h.has_pixels || slice_class || h.rows > 0};
   if (!h.has_pixels) {
-    if (h.modality == "RTSTRUCT")
-      return {
-          "it holds contours (RTSTRUCT) and no picture; load it in 3D Slicer and save the "
-          "segmentation as .seg.nrrd",
-          false};
     if (slice_class || h.rows > 0)
       return {"it holds no picture though it is a slice; it may be cut off, copy it again", true};
     return {"it holds no picture", false};
@@ -120,6 +116,9 @@ void sort_in(Found& found, DicomHeader header) {
       found.segmentations.push_back(std::move(header));
       return;
     }
+  } else if (is_contour_set(header) && header.damage.empty()) {
+    found.contour_sets.push_back(std::move(header));
+    return;
   } else {
     verdict = not_a_slice(header);
   }

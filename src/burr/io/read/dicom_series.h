@@ -64,6 +64,7 @@ struct Indexed {
 struct Found {
   std::vector<Series> series;
   std::vector<DicomHeader> segmentations;  // dicom_seg.h
+  std::vector<DicomHeader> contour_sets;   // dicom_contours.h
   std::vector<Unread> unread;
   std::size_t others = 0;                        // files that are not slices
   std::map<std::string, std::size_t> others_of;  // of these, whole ones of each series

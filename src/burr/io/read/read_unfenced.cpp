@@ -20,12 +20,10 @@
 #include "burr/io/read/foreign.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/text.h"
+#include "burr/io/read/volume_folder.h"
 
 namespace burr::io {
 namespace {
-
-// Parts of names that people give to label maps, in small letters.
-constexpr const char* kLabelWords[] = {"seg", "label", "mask", "parc", "annot", "roi"};
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -159,20 +157,6 @@ bool any_dicom(const std::vector<std::filesystem::path>& files) {
   });
 }
 
-bool named_as_labels(const std::filesystem::path& path) {
-  const std::string name = lower(path.filename().string());
-  return std::any_of(std::begin(kLabelWords), std::end(kLabelWords),
-                     [&](const char* word) { return name.find(word) != std::string::npos; });
-}
-
-std::string names_of(const std::vector<std::filesystem::path>& files) {
-  constexpr std::size_t kNamed = 6;
-  std::string text;
-  for (std::size_t n = 0; n < std::min(files.size(), kNamed); ++n)
-    text += (n > 0 ? ", " : "") + short_name(files[n]);
-  return files.size() > kNamed ? fmt::format("{} and {} more", text, files.size() - kNamed) : text;
-}
-
 // Why a folder without a scan is none, if its files are of a known kind; empty: they are not.
 std::string foreign_folder(const std::filesystem::path& folder, const Inside& inside) {
   std::map<std::string, std::size_t> kinds;
@@ -237,23 +221,11 @@ Result<Scan> read_folder(const std::filesystem::path& folder, const ReadOptions&
   }
   if (inside.volumes.empty() || any_dicom(inside.others))
     return read_dicom_folder(folder, inside, options, progress);
-  std::vector<std::filesystem::path> scans = inside.volumes, labels;
-  if (scans.size() > 1) {
-    const auto middle = std::stable_partition(
-        scans.begin(), scans.end(), [](const auto& path) { return !named_as_labels(path); });
-    labels.assign(middle, scans.end());
-    scans.erase(middle, scans.end());
-  }
-  if (scans.size() != 1)
-    return error(fmt::format("{}: holds {} scans or label maps ({}); give burr one of these files",
-                             short_name(folder), inside.volumes.size(), names_of(inside.volumes)));
-  auto scan = read_by_content(scans.front(), options, progress);
-  if (scan && !labels.empty())
-    scan->notices.push_back(
-        fmt::format("{} was read; {} lies beside it and was left out. To use it instead, give "
-                    "burr that file.",
-                    short_name(scans.front()), names_of(labels)));
-  return scan;
+  if (inside.volumes.size() == 1) return read_by_content(inside.volumes.front(), options, progress);
+  const VolumeFolder volumes{folder, inside.volumes, [&](const std::filesystem::path& path) {
+                               return read_by_content(path, options, progress);
+                             }};
+  return read_volume_folder(volumes, options, progress);
 }
 
 // A zip archive, as the folder that was packed into it.

@@ -66,9 +66,20 @@ fs::path folder_of(const fs::path& file) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
+// What is to be read.
+struct There {
+  std::uint64_t bytes = 0;
+  std::size_t packed = 0;  // files that may each hold a mask, packed a thousand to one
+};
+
+bool may_be_packed_mask(const fs::path& path) {
+  const std::string name = lower(path.filename().string());
+  return name.ends_with(".gz") || name.ends_with(".nrrd") || name.ends_with(".mha");
+}
+
 template <class Walk>
-std::uint64_t bytes_in(Walk walk, std::error_code& trouble) {
-  std::uint64_t sum = 0;
+There bytes_in(Walk walk, std::error_code& trouble) {
+  There sum;
   std::size_t entries = 0;
   for (; !trouble && walk != Walk() && entries < kMostEntries; walk.increment(trouble), ++entries) {
     if constexpr (requires { walk.depth(); })
@@ -76,27 +87,29 @@ std::uint64_t bytes_in(Walk walk, std::error_code& trouble) {
     std::error_code unreadable;
     if (!walk->is_regular_file(unreadable)) continue;
     const std::uint64_t size = walk->file_size(unreadable);
-    if (!unreadable) sum += size;
+    if (!unreadable) sum.bytes += size;
+    if (!unreadable && may_be_packed_mask(walk->path())) ++sum.packed;
   }
   return sum;
 }
 
-std::uint64_t bytes_there(const fs::path& path) {
+There bytes_there(const fs::path& path) {
   constexpr auto kSkip = fs::directory_options::skip_permission_denied;
   std::error_code trouble;
   if (fs::is_directory(path, trouble))
     return bytes_in(fs::recursive_directory_iterator(path, kSkip, trouble), trouble);
-  if (!fs::is_regular_file(path, trouble)) return 0;
+  if (!fs::is_regular_file(path, trouble)) return {};
   if (is_dicomdir(path))
     return bytes_in(fs::recursive_directory_iterator(folder_of(path), kSkip, trouble), trouble);
   if (named_as_adf(path)) {
     const auto pictures = pictures_folder_in_text(path);
-    return pictures ? bytes_in(fs::directory_iterator(*pictures, kSkip, trouble), trouble) : 0;
+    return pictures ? bytes_in(fs::directory_iterator(*pictures, kSkip, trouble), trouble)
+                    : There{};
   }
   if (may_have_partner(path))
     return bytes_in(fs::directory_iterator(folder_of(path), kSkip, trouble), trouble);
   const std::uint64_t size = fs::file_size(path, trouble);
-  return trouble ? 0 : size;
+  return trouble ? There{} : There{size, 0};
 }
 
 // ---- limits of the system
@@ -360,12 +373,14 @@ bool raise_seccomp() { return true; }
 }  // namespace
 
 FenceLimits fence_limits(const fs::path& path, const ReadOptions& options) {
-  const std::uint64_t there = bytes_there(path);
+  const There all = bytes_there(path);
+  const std::uint64_t there = all.bytes;
   FenceLimits limits;
   // Reading takes about 10 ms a MiB, compressed pixels up to 100; a build with sanitizers ten times
-  // that.
+  // that. Each packed file of a folder has as long as it would have alone.
   constexpr double kSeconds = 8, kSecondsPerMiB = 2, kMostSeconds = 24 * 3600;
-  limits.seconds = kSeconds + kSecondsPerMiB * static_cast<double>(there) / double{kMiB};
+  limits.seconds = kSeconds * static_cast<double>(1 + all.packed) +
+                   kSecondsPerMiB * static_cast<double>(there) / double{kMiB};
   if (options.seconds > 0) limits.seconds = options.seconds;
   limits.seconds = std::clamp(limits.seconds, 1.0, kMostSeconds);
   // Labels stay one byte a voxel, however well compressed; other numbers become four bytes each.

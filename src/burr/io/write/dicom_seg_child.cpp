@@ -1,4 +1,5 @@
-// Segmentation IOD as in PS3.3 A.51, by the library libdcmseg of DCMTK. Only burr-seg holds this file.
+// Segmentation IOD as in PS3.3 A.51, by the library libdcmseg of DCMTK. Only burr-seg holds this file. The library of Debian
+// 12 knows no label maps (Supplement 243): it makes a binary segmentation of the same slices, and what differs is changed.
 #include "burr/io/write/dicom_seg_child.h"
 
 #include <dcmtk/config/osconfig.h>
@@ -17,6 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdint>
@@ -71,6 +73,7 @@ struct Job {
   const std::uint8_t* labels = nullptr;
   std::size_t columns = 0, rows = 0, slices = 0;
 
+  [[nodiscard]] bool label_map() const { return told.at("kind") == "LABELMAP"; }
   [[nodiscard]] const std::uint8_t* slice(std::size_t k) const {
     return labels + k * rows * columns;
   }
@@ -115,9 +118,10 @@ std::unique_ptr<DcmSegmentation> empty_segmentation(const Job& job) {
   // before the first frame, or the library complains
   const OFString dimensions = text_of(uids["dimensions"]);
   IODMultiframeDimensionModule& module = seg->getDimensions();
-  demand(module.addDimensionIndex(DCM_ReferencedSegmentNumber, dimensions,
-                                  DCM_SegmentIdentificationSequence, "Segment"),
-         "the order of the frames");
+  if (!job.label_map())
+    demand(module.addDimensionIndex(DCM_ReferencedSegmentNumber, dimensions,
+                                    DCM_SegmentIdentificationSequence, "Segment"),
+           "the order of the frames");
   demand(module.addDimensionIndex(DCM_ImagePositionPatient, dimensions, DCM_PlanePositionSequence,
                                   "Slice"),
          "the order of the frames");
@@ -170,9 +174,32 @@ std::vector<std::array<bool, 256>> labels_of_slices(const Job& job) {
   return has;
 }
 
+FGPlanePosPatient position_of(const Job& job, std::size_t k) {
+  const json &axes = job.header["axes"], &origin = job.header["origin"];
+  const double gap = job.header["spacing"][2].get<double>();
+  std::array<OFString, 3> at;
+  for (std::size_t a = 0; a < 3; ++a)
+    at[a] =
+        decimal(origin[a].get<double>() + gap * static_cast<double>(k) * axes[6 + a].get<double>());
+  FGPlanePosPatient position;
+  demand(position.setImagePositionPatient(at[0], at[1], at[2]), "the place of a frame");
+  return position;
+}
+
+// Adds a frame. indices: its places along the dimensions.
+void add_frame(DcmSegmentation& seg, FGPlanePosPatient position, std::vector<Uint8>& pixels,
+               Uint16 segment, const std::vector<Uint32>& indices) {
+  FGFrameContent content;
+  for (std::size_t n = 0; n < indices.size(); ++n)
+    demand(content.setDimensionIndexValues(indices[n], static_cast<Uint32>(n)), "a frame");
+  OFVector<FGBase*> groups;
+  groups.push_back(&position);
+  groups.push_back(&content);
+  demand(seg.addFrame(pixels.data(), segment, groups), "a frame");
+}
+
 std::size_t add_frames(const Job& job, DcmSegmentation& seg) {
-  const json &spacing = job.header["spacing"], &axes = job.header["axes"],
-             &origin = job.header["origin"], &segments = job.header["segments"];
+  const json& segments = job.header["segments"];
   const auto has = labels_of_slices(job);
   std::vector<Uint32> place(job.slices, 0);  // among the slices with frames, from 1
   std::size_t all = 0;
@@ -182,7 +209,6 @@ std::size_t add_frames(const Job& job, DcmSegmentation& seg) {
     all += frames;
     if (frames > 0) place[k] = static_cast<Uint32>(++used);
   }
-  const double gap = spacing[2].get<double>();
   std::vector<Uint8> pixels(job.rows * job.columns);
   std::size_t done = 0;
   for (std::size_t s = 0; s < segments.size(); ++s) {
@@ -191,25 +217,104 @@ std::size_t add_frames(const Job& job, DcmSegmentation& seg) {
       if (!has[k][value]) continue;
       const std::uint8_t* slice = job.slice(k);
       for (std::size_t n = 0; n < pixels.size(); ++n) pixels[n] = slice[n] == value ? 1 : 0;
-      std::array<OFString, 3> at;
-      for (std::size_t a = 0; a < 3; ++a)
-        at[a] = decimal(origin[a].get<double>() +
-                        gap * static_cast<double>(k) * axes[6 + a].get<double>());
-      FGPlanePosPatient position;
-      demand(position.setImagePositionPatient(at[0], at[1], at[2]), "the place of a frame");
-      FGFrameContent content;
-      demand(content.setDimensionIndexValues(static_cast<Uint32>(s + 1), 0), "a frame");
-      demand(content.setDimensionIndexValues(place[k], 1), "a frame");
-      OFVector<FGBase*> groups;
-      groups.push_back(&position);
-      groups.push_back(&content);
-      demand(seg.addFrame(pixels.data(), static_cast<Uint16>(s + 1), groups), "a frame");
+      add_frame(seg, position_of(job, k), pixels, static_cast<Uint16>(s + 1),
+                {static_cast<Uint32>(s + 1), place[k]});
       if (++done % 32 == 0)
         say("progress " +
             std::to_string(0.7 * static_cast<double>(done) / static_cast<double>(all)));
     }
   }
   return done;
+}
+
+// ---- label maps
+
+// The first slice with a label, and how many up to the last one: one frame each, so that they lie evenly.
+struct Planes {
+  std::size_t first = 0, count = 0;
+};
+
+Planes add_planes(const Job& job, DcmSegmentation& seg) {
+  Planes planes;
+  const std::size_t slice = job.rows * job.columns;
+  for (std::size_t k = 0; k < job.slices; ++k) {
+    const std::uint8_t* from = job.slice(k);
+    if (std::all_of(from, from + slice, [](std::uint8_t label) { return label == 0; })) continue;
+    if (planes.count == 0) planes.first = k;
+    planes.count = k + 1 - planes.first;
+  }
+  std::vector<Uint8> nothing(slice);  // the pixels follow in make_label_map()
+  for (std::size_t n = 0; n < planes.count; ++n) {
+    add_frame(seg, position_of(job, planes.first + n), nothing, 1, {static_cast<Uint32>(n + 1)});
+    if (n % 32 == 0)
+      say("progress " +
+          std::to_string(0.7 * static_cast<double>(n) / static_cast<double>(planes.count)));
+  }
+  return planes;
+}
+
+// The background is a segment too, number 0, as a copy of the first one with its own name and code.
+void add_background(DcmDataset& set) {
+  DcmSequenceOfItems* sequence = nullptr;
+  demand(set.findAndGetSequence(DCM_SegmentSequence, sequence), "the segments");
+  auto background = std::make_unique<DcmItem>(*sequence->getItem(0));
+  demand(background->putAndInsertUint16(DCM_SegmentNumber, 0), "the background");
+  demand(background->putAndInsertString(DCM_SegmentLabel, "Background"), "the background");
+  constexpr std::array<Uint16, 3> kBlack = {0, 0x8080, 0x8080};
+  demand(background->putAndInsertUint16Array(DCM_RecommendedDisplayCIELabValue, kBlack.data(), 3),
+         "the background");
+  for (const DcmTagKey& tag :
+       {DCM_SegmentedPropertyCategoryCodeSequence, DCM_SegmentedPropertyTypeCodeSequence}) {
+    DcmItem* code = nullptr;
+    demand(background->findAndGetSequenceItem(tag, code), "the background");
+    demand(code->putAndInsertString(DCM_CodeValue, "125040"), "the background");
+    demand(code->putAndInsertString(DCM_CodingSchemeDesignator, "DCM"), "the background");
+    demand(code->putAndInsertString(DCM_CodeMeaning, "Background"), "the background");
+  }
+  demand(sequence->prepend(background.release()), "the background");
+}
+
+// Makes a Label Map Segmentation (PS3.3 C.8.20.2) of a binary one, whose segments have their names and codes.
+void make_label_map(const Job& job, const Planes& planes, DcmDataset& set) {
+  const auto number = [&](const DcmTagKey& tag, Uint16 value) {
+    demand(set.putAndInsertUint16(tag, value), "the label map");
+  };
+  const auto text = [&](const DcmTagKey& tag, const char* value) {
+    demand(set.putAndInsertString(tag, value), "the label map");
+  };
+  text(DCM_SOPClassUID, "1.2.840.10008.5.1.4.1.1.66.7");
+  text(DCM_SegmentationType, "LABELMAP");
+  text(DCM_DimensionOrganizationType, "3D");
+  number(DCM_BitsAllocated, 8);
+  number(DCM_BitsStored, 8);
+  number(DCM_HighBit, 7);
+  number(DCM_PixelPaddingValue, 0);
+  const json& segments = job.header["segments"];
+  for (std::size_t n = 0; n < segments.size(); ++n) {
+    DcmItem* item = nullptr;
+    demand(set.findAndGetSequenceItem(DCM_SegmentSequence, item, static_cast<signed long>(n)),
+           "a segment");
+    demand(item->putAndInsertUint16(DCM_SegmentNumber, segments[n]["value"].get<Uint16>()),
+           "a segment");
+  }
+  add_background(set);
+  // which segment a frame shows is not stated: it shows all
+  for (const DcmTagKey& groups :
+       {DCM_SharedFunctionalGroupsSequence, DCM_PerFrameFunctionalGroupsSequence}) {
+    DcmSequenceOfItems* sequence = nullptr;
+    demand(set.findAndGetSequence(groups, sequence), "the frames");
+    for (unsigned long n = 0; n < sequence->card(); ++n)
+      sequence->getItem(n)->findAndDeleteElement(DCM_SegmentIdentificationSequence);
+  }
+  const std::size_t bytes = planes.count * job.rows * job.columns;
+  constexpr std::size_t kMost = 0xFFFFFFFE;  // of one element
+  if (bytes > kMost)
+    throw std::runtime_error(
+        "a label map of so many voxels is larger than a DICOM file can be; write .seg.nrrd, or "
+        "fewer voxels (`voxel_mm`)");
+  demand(set.putAndInsertUint8Array(DCM_PixelData, job.slice(planes.first),
+                                    static_cast<unsigned long>(bytes)),
+         "the pixels");
 }
 
 // The texts of the segments. The library takes all letters but those of ASCII for wrong, so it got others in their place.
@@ -287,7 +392,9 @@ void write_file() {
   auto seg = empty_segmentation(job);
   add_segments(job, *seg);
   add_geometry(job, *seg);
-  const std::size_t frames = add_frames(job, *seg);
+  Planes planes;
+  if (job.label_map()) planes = add_planes(job, *seg);
+  const std::size_t frames = job.label_map() ? planes.count : add_frames(job, *seg);
   // each frame is made above in the same way; to check thousands takes minutes
   seg->setCheckFGOnWrite(frames < 100 ? OFTrue : OFFalse);
   seg->setCheckDimensionsOnWrite(frames < 100 ? OFTrue : OFFalse);
@@ -298,6 +405,7 @@ void write_file() {
   add_texts(job, *file.getDataset());
   add_study(job, *file.getDataset());
   add_instance(job, *file.getDataset());
+  if (job.label_map()) make_label_map(job, planes, *file.getDataset());
   demand(file.saveFile("-", EXS_LittleEndianExplicit), "the file cannot be written");
   if (std::fflush(stdout) != 0) throw std::runtime_error("the file cannot be written");
   say("frames " + std::to_string(frames));

@@ -23,11 +23,15 @@ struct SegmentCodes {
   std::optional<DicomCode> category, type;
 };
 
+// How the segments are stored: one bit a voxel for each, or one number a voxel for all (PS3.3 C.8.20.2, since 2024).
+enum class SegKind : std::uint8_t { binary, label_map };
+
 enum class SegmentedBy : std::uint8_t { automatic, semiautomatic, manual };
 
 struct SegOptions {
-  std::optional<DicomStudy> study;    // whose scan was segmented; none: a new study of nobody
-  std::string uid_root;               // of new UIDs; empty: 2.25, which needs no registration
+  std::optional<DicomStudy> study;  // whose scan was segmented; none: a new study of nobody
+  std::string uid_root;             // of new UIDs; empty: 2.25, which needs no registration
+  SegKind kind = SegKind::binary;
   std::map<int, SegmentCodes> codes;  // by label
   SegmentedBy by = SegmentedBy::semiautomatic;
   std::string algorithm;  // name, for all but manual; empty: burr and its version

@@ -106,7 +106,9 @@ nlohmann::json segments_of(const Scan& scan, const SegOptions& options, SegWritt
     const auto codes = options.codes.find(label);
     const SegmentCodes own = codes != options.codes.end() ? codes->second : SegmentCodes{};
     if (!own.type) uncoded.push_back(base::printable(line));
-    const auto number = static_cast<int>(out.size()) + 1;
+    // a label map keeps its numbers
+    const auto number =
+        options.kind == SegKind::label_map ? label : static_cast<int>(out.size()) + 1;
     out.push_back({{"value", label},
                    {"name", line},
                    {"category", json_of(own.category.value_or(general))},
@@ -172,6 +174,7 @@ Result<nlohmann::json> job_of(const Scan& scan, const SegOptions& options, SegWr
   const auto [date, time] = date_and_time();
   nlohmann::json job = {
       {"version", base::version()},
+      {"kind", options.kind == SegKind::label_map ? "LABELMAP" : "BINARY"},
       {"date", date},
       {"time", time},
       {"uids", *uids},

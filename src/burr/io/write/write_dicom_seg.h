@@ -1,13 +1,15 @@
-// io/write/write_dicom_seg.h - writes labels as a DICOM segmentation (SEG, PS3.3 A.51): binary, one segment for each
-// structure, on the grid of the labels.
+// io/write/write_dicom_seg.h - writes labels as a DICOM segmentation (PS3.3 A.51) on the grid of the labels: binary, one
+// segment for each structure, or a label map, one number for each voxel.
 //
 //     auto written = io::write_dicom_seg(scan, "seg.dcm", {.study = ct.study}, progress);
 //
 // The library that writes DICOM runs in a process of its own, `burr-seg`, which is looked for in the environment variable
 // BURR_SEG, then as burr-read is. The file is complete or not there.
 //
-// Frames without a voxel of their segment are left out, and so are segments without a voxel. Segments are numbered from
-// 1 without a gap, in the order of their labels, as DICOM wants it. They never overlap, because a voxel has one label.
+// Segments without a voxel are left out. Binary: frames without a voxel of their segment are left out too, and segments are
+// numbered from 1 without a gap, in the order of their labels, as DICOM wants it. Label map: a frame for each slice from
+// the first to the last with a label; segments keep the numbers of their labels, and 0 is the segment "Background" (Pixel
+// Padding Value). Segments never overlap, because a voxel has one label.
 // Frame: LPS. Thread: any. Memory: the labels, and in the other process three bits for each voxel of each frame.
 // Errors: Trouble::io, Trouble::data, Trouble::interrupted, Trouble::usage (a root of UIDs that is none).
 #pragma once
