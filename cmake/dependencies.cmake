@@ -21,7 +21,8 @@ endif()
 # reading scans: bzip2; GDCM decodes DICOM pixels (its own config file would pull in VTK)
 find_package(BZip2 REQUIRED)
 find_package(OpenSSL 3 REQUIRED)  # TLS of `burr serve`
-find_package(PNG REQUIRED)  # pictures of AMBF's volumes; stb only writes
+find_package(PNG REQUIRED)  # pictures of AMBF's volumes and of stacks; stb only writes
+find_package(TIFF 4.5 REQUIRED)  # stacks of pictures
 pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)  # and their description
 find_package(meshoptimizer REQUIRED)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # meshes of tools; in tests, reads back what burr writes

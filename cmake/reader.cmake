@@ -1,18 +1,26 @@
 # burr-read: reads one scan in a process of its own (src/burr/io/sandbox/fence.h). It contains the
 # readers and what they need, so it starts in milliseconds. libburr contains only what both sides
 # need, and no codec.
+include(cmake/letters.cmake)
 file(GLOB base CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/base/*.cpp)
 set(BURR_BOTH_SIDES
   io/read/adf_folder.cpp io/read/bytes.cpp io/read/calibration.cpp io/read/label_lists.cpp io/read/label_numbers.cpp io/sandbox/fence_letter.cpp io/sandbox/fence_walls.cpp io/read/samples.cpp io/read/text.cpp io/value_groups.cpp io/voxels.cpp)
-set(BURR_READERS io/read/archive.cpp io/read/compare_frames.cpp io/read/contour_plane.cpp io/read/contour_voxels.cpp io/read/dicom_absent.cpp io/read/dicom_contours.cpp io/read/dicom_divide.cpp io/read/dicom_elements.cpp io/read/dicom_facts.cpp io/read/dicom_header.cpp io/read/dicom_labels.cpp io/read/dicom_pixels.cpp io/read/dicom_seg.cpp io/read/dicom_seg_frames.cpp io/read/dicom_series.cpp io/read/dicom_slices.cpp io/read/dicom_stack.cpp io/read/dicom_volumes.cpp io/read/dicomdir.cpp io/read/foreign.cpp
-  io/sandbox/fence_child.cpp io/read/geometry.cpp io/read/inverted.cpp io/read/merge_structures.cpp io/read/modality.cpp io/read/png.cpp
-  io/read/nrrd_header.cpp io/read/nrrd_segments.cpp io/read/read_adf.cpp io/read/read_dicom.cpp io/read/read_meta.cpp io/read/read_nifti.cpp io/read/read_nrrd.cpp io/read/read_unfenced.cpp io/read/volume_folder.cpp io/read/yaml.cpp)
+set(BURR_READERS io/read/archive.cpp io/read/beside.cpp io/read/compare_frames.cpp io/read/contour_plane.cpp io/read/contour_voxels.cpp
+  io/read/dicom_absent.cpp io/read/dicom_contours.cpp io/read/dicom_divide.cpp io/read/dicom_elements.cpp io/read/dicom_facts.cpp
+  io/read/dicom_header.cpp io/read/dicom_labels.cpp io/read/dicom_pixels.cpp io/read/dicom_seg.cpp io/read/dicom_seg_frames.cpp
+  io/read/dicom_series.cpp io/read/dicom_slices.cpp io/read/dicom_stack.cpp io/read/dicom_syntaxes.cpp io/read/dicom_volumes.cpp
+  io/read/dicomdir.cpp io/read/foreign.cpp io/read/geometry.cpp io/read/grey_picture.cpp io/read/inverted.cpp io/read/letters.cpp
+  io/read/merge_structures.cpp io/read/modality.cpp io/read/nrrd_header.cpp io/read/nrrd_segments.cpp io/read/nrrd_shape.cpp
+  io/read/picture_scale.cpp io/read/picture_stack.cpp io/read/png.cpp io/read/read_adf.cpp io/read/read_dicom.cpp io/read/read_meta.cpp
+  io/read/read_nifti.cpp io/read/read_nrrd.cpp io/read/read_unfenced.cpp io/read/several_volumes.cpp io/read/stack_names.cpp
+  io/read/tiff.cpp io/read/volume_folder.cpp io/read/yaml.cpp io/sandbox/fence_child.cpp)
 list(TRANSFORM BURR_BOTH_SIDES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 list(TRANSFORM BURR_READERS PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 
 add_library(burr_readers STATIC ${BURR_READERS} ${BURR_BOTH_SIDES} ${base})
 target_include_directories(burr_readers PUBLIC ${PROJECT_SOURCE_DIR}/src)
-target_link_libraries(burr_readers PUBLIC Eigen3::Eigen Threads::Threads fmt::fmt ZLIB::ZLIB BZip2::BZip2 burr_gdcm PNG::PNG PkgConfig::YAML
+target_include_directories(burr_readers PRIVATE ${BURR_LETTERS})
+target_link_libraries(burr_readers PUBLIC Eigen3::Eigen Threads::Threads fmt::fmt ZLIB::ZLIB BZip2::BZip2 burr_gdcm PNG::PNG TIFF::TIFF PkgConfig::YAML
   PRIVATE burr_options)
 target_compile_definitions(burr_readers PRIVATE BURR_VERSION="${PROJECT_VERSION}")
 burr_common_headers(burr_readers <fmt/format.h>)

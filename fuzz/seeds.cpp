@@ -374,6 +374,60 @@ void adf() {
   seed("adf", "alias", "volumes: &x [VOLUME a]\nVOLUME a: *x\nd: {e: [f, {g: h}]}\n...\n");
 }
 
+// Pictures of a stack: TIFF of 3 x 2 pixels, of 8 or 16 bits, and BMP.
+string tiff_page(std::size_t bits, const string& description, std::uint32_t pages) {
+  Dicom d;  // for its little-endian numbers
+  d.out.raw(record::as_bytes(string("II*\0", 4)));
+  d.put32(8);
+  const std::size_t bytes = 6 * bits / 8;
+  for (std::uint32_t page = 0; page < pages; ++page) {
+    constexpr std::uint32_t kTags = 9, kEach = 12;
+    const auto here = static_cast<std::uint32_t>(d.out.span().size());
+    const std::uint32_t end = here + 2 + kEach * kTags + 4;
+    const auto words = static_cast<std::uint32_t>(description.size());
+    d.put16(kTags);
+    const std::uint32_t fields[kTags][4] = {
+        {256, 3, 1, 3},           {257, 3, 1, 2}, {258, 3, 1, static_cast<std::uint32_t>(bits)},
+        {259, 3, 1, 1},           {262, 3, 1, 1}, {270, 2, words, end},
+        {273, 4, 1, end + words}, {278, 3, 1, 2}, {279, 4, 1, static_cast<std::uint32_t>(bytes)}};
+    for (const auto& field : fields) {
+      d.put16(field[0]);
+      d.put16(field[1]);
+      d.put32(field[2]);
+      d.put32(field[3]);
+    }
+    d.put32(page + 1 < pages ? end + words + static_cast<std::uint32_t>(bytes) : 0);
+    d.out.raw(record::as_bytes(description + string(bytes, static_cast<char>(page + 1))));
+  }
+  return text(d.out);
+}
+
+void pictures() {
+  const string imagej(
+      "ImageJ=1.53t\nimages=4\nchannels=2\nslices=2\nunit=mm\nspacing=2\ncf=0\nc0=-9\nc1=1\n\0",
+      84);
+  const string ome(
+      "<OME><Pixels DimensionOrder=\"XYZCT\" PhysicalSizeX=\"5\" PhysicalSizeY=\"5\" "
+      "SizeZ=\"3\"/>\0",
+      83);
+  seed("tiff", "pages", tiff_page(16, string("x\0", 2), 3));
+  seed("tiff", "imagej", tiff_page(8, imagej, 4));
+  seed("tiff", "ome", tiff_page(16, ome, 3));
+  string bmp =
+      "BM" + string(8, '\0') + string("\x36\0\0\0\x28\0\0\0\3\0\0\0\2\0\0\0\1\0\x18\0", 20);
+  bmp += string(54 - bmp.size(), '\0') + string(24, '\7');
+  const auto one = [](const string& name, const string& bytes) {
+    return name + "\n" + static_cast<char>(bytes.size() & 0xFF) +
+           static_cast<char>(bytes.size() >> 8) + bytes;
+  };
+  const string page = tiff_page(16, string("x\0", 2), 1);
+  seed("picture_stack", "tiff", one("s1.tif", page) + one("s2.tif", page) + one("s10.tif", page));
+  seed("picture_stack", "bmp", one("a_1.bmp", bmp) + one("a_3.bmp", bmp));
+  seed("letters", "japan", "\\ISO 2022 IR 87\nJAW.RAW\n\x1B$B;3ED\x1B(B^\x1B$BB@O:\x1B(B");
+  seed("letters", "windows", "ISO_IR 13\n\x83\x5C.raw\n\xE3\x82\xBD.raw");
+  seed("letters", "china", "GB18030\nZ\xE4hne\n\xCD\xF5^\xD0\xA1");
+}
+
 // A zip archive of one file.
 string zipped(const string& name, const string& content, bool deflate_it) {
   const string packed = deflate_it ? deflated(content, -15) : content;
@@ -647,6 +701,7 @@ int main(int argc, char** argv) {
   meta();
   dicom();
   adf();
+  pictures();
   unpacking();
   texts();
   devices();

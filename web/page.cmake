@@ -128,7 +128,7 @@ target_link_options(burr_sound PRIVATE --no-entry -sSTANDALONE_WASM=1 -sINITIAL_
 # The fourth module, burr_import, loaded only when somebody opens a scan: burr's readers without what needs libraries that Debian does
 # not have for WebAssembly (web/import/gaps), and the making of bone.
 file(GLOB readers CONFIGURE_DEPENDS ${src}/io/read/*.cpp ${src}/importing/*.cpp)
-list(FILTER readers EXCLUDE REGEX "/(png|read_adf|yaml|read_mesh|read_scan)\\.cpp$|_avx(2|512)\\.cpp$")
+list(FILTER readers EXCLUDE REGEX "/(png|tiff|grey_picture|picture_scale|picture_stack|stack_names|read_adf|yaml|read_mesh|read_scan)\\.cpp$|_avx(2|512)\\.cpp$")
 file(GLOB import_api CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/import/*.cpp)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/materials/materials.toml)
 file(READ ${PROJECT_SOURCE_DIR}/materials/materials.toml BURR_MATERIALS_TEXT)
@@ -137,7 +137,9 @@ add_executable(burr_import ${import_api} ${readers} ${src}/io/voxels.cpp ${src}/
   ${src}/base/text_file.cpp ${src}/scenario/recipe.cpp ${src}/record/bone_blob.cpp ${src}/record/grid_json.cpp
   ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
   ${PROJECT_SOURCE_DIR}/web/crc32_web.cpp ${PROJECT_SOURCE_DIR}/web/packed_web.cpp)
-target_include_directories(burr_import PRIVATE ${PROJECT_SOURCE_DIR}/web ${PROJECT_SOURCE_DIR}/web/import
+find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
+include(${PROJECT_SOURCE_DIR}/cmake/letters.cmake)
+target_include_directories(burr_import PRIVATE ${BURR_LETTERS} ${PROJECT_SOURCE_DIR}/web ${PROJECT_SOURCE_DIR}/web/import
   ${PROJECT_SOURCE_DIR}/web/import/gaps ${PROJECT_SOURCE_DIR}/web/gaps ${PROJECT_SOURCE_DIR}/third_party)
 target_include_directories(burr_import SYSTEM PRIVATE ${headers})
 target_compile_definitions(burr_import PRIVATE FMT_HEADER_ONLY)
@@ -150,7 +152,6 @@ target_link_options(burr_import PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
 # Codecs of others, from npm, as web/package-lock.json names them: fetched once, kept in the folder of the build.
-find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter)
 set(codecs ${CMAKE_BINARY_DIR}/web/codecs)
 add_custom_command(OUTPUT ${codecs}/licences.txt
   COMMAND Python3::Interpreter ${web_dir}/codecs/take.py ${CMAKE_BINARY_DIR}/web/npm ${codecs}

@@ -436,7 +436,7 @@ TEST_F(FoundScans, OfTheReportsFoldersAreUnderstood) {
     const char *name, *words;
   };
   for (const Refused& refused :
-       {Refused{"stl", "an STL mesh"}, {"jpgs", "3 times a TIFF picture"}}) {
+       {Refused{"stl", "an STL mesh"}, {"jpgs", "slice_0001.tif: is a damaged TIFF picture"}}) {
     const auto scan = report(x + refused.name);
     ASSERT_FALSE(scan.ok()) << refused.name;
     EXPECT_NE(scan.error().text.find(refused.words), std::string::npos) << scan.error().text;

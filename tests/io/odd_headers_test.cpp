@@ -106,9 +106,11 @@ TEST_F(OddHeader, AColourThatIsNoNumberIsLeftOut) {
 TEST_F(OddHeader, AColourInATableOfTissuesMustBeNumbers) {
   std::string voxels(16 * 16 * 16, '\0');
   std::fill(voxels.begin(), voxels.begin() + 2048, '\1');
-  const auto scan = read(
-      file("a.nrrd",
-           "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nencoding: raw\n\n" + voxels));
+  const auto scan =
+      read(file("a.nrrd",
+                "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nspacings: 1 1 1\n"
+                "encoding: raw\n\n" +
+                    voxels));
   ASSERT_TRUE(scan.ok()) << scan.error().text;
   scenario::BoneRecipe options;
   options.labels = file("t.toml", "[[label]]\nvalue = 1\ncolour = [nan, 0, inf]\n");

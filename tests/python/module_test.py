@@ -126,15 +126,17 @@ class Bones(unittest.TestCase):
             file = f"{folder}/cube.nrrd"  # which says nothing of its spacing
             pathlib.Path(file).write_bytes(b"NRRD0004\ntype: short\ndimension: 3\nsizes: 24 24 24\nencoding: raw\nendian: little\n\n"
                                            + values.tobytes())
-            assumed = burr.Bone.load(file)
-            self.assertIn("The file states no voxel spacing: 1 mm is assumed; see `spacing_mm`.", assumed.notices)
+            with self.assertRaises(burr.Error) as raised:
+                burr.Bone.load(file)
+            self.assertIn("states no voxel spacing (taken for 1 mm); give the size of a voxel with `spacing_mm`", str(raised.exception))
+            assumed = burr.Bone.load(file, spacing_mm=1)
             half = burr.Bone.load(file, spacing_mm=0.5, smooth=0, read_seconds=60, read_memory_mb=4096)
             self.assertTrue(any("as given by `spacing_mm`" in one for one in half.notices), half.notices)
             self.assertAlmostEqual(half.volume_mm3() / assumed.volume_mm3(), 1 / 8, delta=1e-3)
             self.assertEqual(burr.Bone.load(file, spacing_mm=(0.5, 0.5, 0.5), smooth=0).hash, half.hash)
             for call, sentence in [
                     (lambda: burr.Bone.load(file, spacing_mm=(1, 1, -1)), "spacing_mm is out of range"),
-                    (lambda: burr.Bone.load(file, iso=3000), "choose another level with `iso`"),
+                    (lambda: burr.Bone.load(file, iso=3000, spacing_mm=1), "choose another level with `iso`"),
                     (lambda: burr.Bone.load(file, region="1,2"), '`region`: "1,2" is not six whole numbers'),
                     (lambda: burr.Bone.load("phantom:tooth", region="0,9,0,9,0,9"), "only `voxel_mm` and `materials` apply"),
                     (lambda: burr.Bone.load("phantom:tooth", smooth=0), "`smooth` is for scans")]:

@@ -91,6 +91,19 @@ TEST(BoneRecipe, WithoutPathsNamesNobody) {
   EXPECT_EQ(phantom_name("jaw"), "");
 }
 
+TEST(BoneRecipe, InARecordingKeepsWhatTellsNothingOfThePatient) {
+  for (const char* kept : {"", "#2", "3", "70 keV", "55kev"}) {
+    BoneRecipe recipe;
+    recipe.series = kept;
+    EXPECT_EQ(without_paths(recipe).series, kept);
+  }
+  for (const char* hidden : {"1.2.840", "1.2", "12345678", "Svensson keV", "1.2.840#2"}) {
+    BoneRecipe recipe;
+    recipe.series = hidden;
+    EXPECT_EQ(without_paths(recipe).series, kOwn) << hidden;
+  }
+}
+
 TEST(BoneRecipe, OfTheWrongKindIsRefusedByField) {
   for (const auto& [text, field] : std::initializer_list<std::pair<const char*, const char*>>{
            {R"({"voxel_mm": "fine"})", "voxel_mm"},

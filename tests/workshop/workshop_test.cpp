@@ -1,6 +1,7 @@
 // From a case or a recipe to a session, a recording, and back to what was removed, without a program
 // around it.
 #include <gtest/gtest.h>
+#include <functional>
 
 #include <filesystem>
 #include <numbers>
@@ -63,6 +64,27 @@ TEST_F(Workshop, ABurrTooSmallForTheVoxelsIsANotice) {
   EXPECT_NEAR(prepared->burr.radius, 2.7e-3, 1e-12);
   ASSERT_FALSE(prepared->summary.notices.empty());
   EXPECT_NE(prepared->summary.notices.back().find("too small"), std::string::npos);
+}
+
+TEST_F(Workshop, WhatDoesNothingForAPhantomIsRefused) {
+  using scenario::BoneRecipe;
+  const std::function<void(BoneRecipe&)> ways[] = {
+      [](BoneRecipe& r) { r.smooth = 0; },        [](BoneRecipe& r) { r.smooth = 20; },
+      [](BoneRecipe& r) { r.memory_mb = 512; },   [](BoneRecipe& r) { r.iso = 300; },
+      [](BoneRecipe& r) { r.series = "#2"; },     [](BoneRecipe& r) { r.allow_missing = true; },
+      [](BoneRecipe& r) { r.as_it_is = true; },   [](BoneRecipe& r) { r.spacing_mm = {1, 1, 1}; },
+      [](BoneRecipe& r) { r.keep.largest = 1; },  [](BoneRecipe& r) { r.drop_islands_mm3 = 1; },
+      [](BoneRecipe& r) { r.read_seconds = 9; },  [](BoneRecipe& r) { r.labels = "a.toml"; },
+      [](BoneRecipe& r) { r.read_memory_mb = 9; }};
+  for (const auto& change : ways) {
+    BoneRecipe recipe;
+    recipe.source = "phantom:ball";
+    change(recipe);
+    const auto prepared = prepare(recipe, quiet_);
+    ASSERT_FALSE(prepared) << scenario::to_json(recipe);
+    EXPECT_NE(prepared.error().text.find("only `voxel_mm` and `materials` apply"),
+              std::string::npos);
+  }
 }
 
 TEST_F(Workshop, WhatASessionRemovedIsReadFromItsRecordingAlone) {

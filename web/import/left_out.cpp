@@ -1,10 +1,13 @@
-// What a page leaves out of reading scans. In place of io/read/read_adf.cpp, png.cpp, yaml.cpp and of libraries.
+// What a page leaves out of reading scans. In place of io/read/read_adf.cpp, picture_stack.cpp, png.cpp, tiff.cpp, yaml.cpp
+// and of libraries.
 #include "left_out.h"
 
 #include <emscripten.h>
 
 #include <cstdlib>
 
+#include "burr/io/read/foreign.h"
+#include "burr/io/read/picture_stack.h"
 #include "burr/io/read/readers.h"
 
 // clang-format off
@@ -26,6 +29,20 @@ namespace burr::io {
 
 Result<Scan> read_adf(const std::filesystem::path&, const ReadOptions&, Progress&) {
   web::leave_out("no_pictures", "");
+}
+Result<Scan> read_picture(const std::filesystem::path&, const ReadOptions&, Progress&) {
+  web::leave_out("no_pictures", "");
+}
+Result<Scan> read_picture_stack(const std::vector<std::filesystem::path>&, const std::string&,
+                                const ReadOptions&, Progress&) {
+  web::leave_out("no_pictures", "");
+}
+// By their names alone.
+std::vector<std::filesystem::path> pictures_among(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::filesystem::path> out;
+  for (const auto& path : files)
+    if (named_as_picture(path)) out.push_back(path);
+  return out;
 }
 Result<bool> describes_pictures(const std::filesystem::path&) { return true; }
 

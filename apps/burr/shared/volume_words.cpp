@@ -37,7 +37,8 @@ void add_volume_options(CLI::App& command, scenario::BoneRecipe& recipe) {
   };
   command.add_option("--series", recipe.series,
                      "volume of a DICOM folder: #2 as in the list of burr info, a Series Instance "
-                     "UID or its beginning, or UID#2 for the second volume of that series");
+                     "UID or its beginning, UID#2 for the second volume of that series, or \"70 "
+                     "keV\" of a spectral scan; of a file of several volumes: 2");
   command.add_flag("--allow-missing", recipe.allow_missing,
                    "make bone of a scan though some of its files cannot be read, or are not there");
   command.add_flag("--as-it-is", recipe.as_it_is,

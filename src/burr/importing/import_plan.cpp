@@ -145,6 +145,9 @@ Status answer(const io::Scan& scan, const scenario::BoneRecipe& recipe, ImportSu
         if (!is_answered) return error(question.text + "; to use it all the same, give `as_it_is`");
         out.notices.push_back(question.text + "; used all the same (`as_it_is`).");
         break;
+      case io::Ask::volume:
+        if (!is_answered) return error(question.text + "; choose it by its number with `series`");
+        break;
     }
   }
   return fine();

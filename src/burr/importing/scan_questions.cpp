@@ -11,6 +11,8 @@ bool answered(const io::Question& question, const scenario::BoneRecipe& recipe) 
       return (recipe.spacing_mm.array() > 0).all();
     case io::Ask::doubt:
       return recipe.as_it_is;
+    case io::Ask::volume:
+      return !recipe.series.empty();
   }
   return false;
 }

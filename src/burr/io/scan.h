@@ -35,7 +35,8 @@ enum class Ask : std::uint8_t {
   missing = 1,  // slices that could not be read; --allow-missing answers
   spacing,      // a distance that is not stated, or that no scan has; --spacing-mm answers
   absent,       // slices that something says should be there; --allow-missing answers
-  doubt,  // it contradicts itself, or is no picture in which bone is bright; --as-it-is answers
+  doubt,   // it contradicts itself, or is no picture in which bone is bright; --as-it-is answers
+  volume,  // the file holds several volumes; --series answers
 };
 struct Question {
   Ask ask = Ask::missing;
@@ -61,8 +62,8 @@ struct Scan {
                             // voxel k here is voxel size.z-1-k of the file
   std::string format;       // "DICOM", "NRRD" ...
   std::string modality;     // as DICOM says it, "CT", "MR", "RTDOSE"; empty: not stated
-  // Where a DICOM folder holds several series: one line for each, without patient data, as `burr
-  // info` lists them, and the index of the one read here.
+  // Where a DICOM folder holds several series, or a file several volumes: one line for each, without
+  // patient data, as `burr info` lists them, and the index of the one read here.
   std::vector<std::string> series;
   int series_taken = 0;
   std::vector<std::string> series_dates;  // of the study of each, "2019-03-07"; empty: not stated

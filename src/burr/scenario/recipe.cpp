@@ -159,9 +159,26 @@ std::string without_variant(const std::string& phantom) {
   return phantom.substr(0, phantom.find('?'));
 }
 
+namespace {
+
+// A number in the list of series, or an energy ("70 keV"): it tells nothing of the patient. Unlike the
+// beginning of a UID, which is long or has dots.
+bool tells_nothing(const std::string& series) {
+  constexpr std::size_t kLongest = 6, kUnit = 3;
+  if (series.starts_with('#')) return true;
+  std::string number = series;
+  for (const char* unit : {"keV", "kev", "KEV"})
+    if (number.ends_with(unit)) number.resize(number.size() - kUnit);
+  if (number.size() < series.size() && number.ends_with(' ')) number.pop_back();
+  return number.size() <= kLongest &&
+         std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
 BoneRecipe without_paths(BoneRecipe recipe) {
   if (!is_phantom(recipe.source)) recipe.source.clear();
-  if (!recipe.series.empty() && recipe.series.front() != '#') recipe.series = kOwn;
+  if (!tells_nothing(recipe.series)) recipe.series = kOwn;
   if (!recipe.labels.empty()) recipe.labels = kOwn;
   if (!recipe.materials.empty()) recipe.materials = kOwn;
   return recipe;

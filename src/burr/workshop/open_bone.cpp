@@ -38,7 +38,9 @@ void describe(const volume::Bone& bone, const char* format, importing::ImportSum
 
 Result<importing::Imported> open_phantom(const scenario::BoneRecipe& recipe, Progress& progress) {
   const std::string name = scenario::phantom_name(recipe.source);
+  const scenario::BoneRecipe usual;
   if (!recipe.series.empty() || !recipe.spacing_mm.isZero(0) || recipe.region || recipe.iso ||
+      recipe.smooth != usual.smooth || recipe.memory_mb != usual.memory_mb ||
       recipe.allow_missing || recipe.as_it_is || !recipe.labels.empty() ||
       recipe.read_seconds != 0 || recipe.read_memory_mb != 0 || !recipe.keep.all() ||
       recipe.drop_islands_mm3 != 0)
@@ -54,8 +56,8 @@ Result<importing::Imported> open_phantom(const scenario::BoneRecipe& recipe, Pro
     };
   }
   importing::Imported made;
-  const bool usual = recipe.voxel_mm == 0 || recipe.voxel_mm == phantom::default_voxel_mm(name);
-  if (usual && !made_of) made.bone = prebuilt_phantom(name, recipe.reserve_bricks);
+  const bool as_ever = recipe.voxel_mm == 0 || recipe.voxel_mm == phantom::default_voxel_mm(name);
+  if (as_ever && !made_of) made.bone = prebuilt_phantom(name, recipe.reserve_bricks);
   const std::string entry = made.bone ? std::string() : entry_of(recipe);
   if (auto kept = kept_bone(entry, recipe.reserve_bricks)) made.bone = std::move(kept->bone);
   if (!made.bone) {

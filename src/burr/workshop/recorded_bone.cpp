@@ -29,7 +29,7 @@ Result<scenario::BoneRecipe> recipe_of(const scenario::BoneRecipe& recorded,
   recipe.materials = given.materials;
   recipe.read_seconds = given.read_seconds;
   recipe.read_memory_mb = given.read_memory_mb;
-  if (!recorded.series.starts_with('#')) recipe.series = given.series;
+  if (recorded.series.empty() || recorded.series == scenario::kOwn) recipe.series = given.series;
   if (recorded.series == scenario::kOwn && given.series.empty())
     return error(Trouble::usage, fmt::format("{}: was made from a series chosen by its UID, which "
                                              "recordings do not store; give it again with `series`",
@@ -77,6 +77,10 @@ Result<std::unique_ptr<volume::Bone>> bone_of(const record::Player& player,
   if (!recipe) return recipe.error();
   if (scenario::is_phantom(recorded.source) && given.source.empty()) {
     recipe->source = recorded.source;
+    // burr took both for a phantom, until it was said that they do nothing there
+    const scenario::BoneRecipe usual;
+    recipe->smooth = usual.smooth;
+    recipe->memory_mb = usual.memory_mb;
   } else if (!scenario::is_phantom(given.source)) {
     auto found = record::find_volume(info.volume, {given.source, record::volume_search_path(),
                                                    player.path(), record::scan_list()});

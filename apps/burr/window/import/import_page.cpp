@@ -189,6 +189,9 @@ void ImportPage::take_as_it_is() {
       case io::Ask::doubt:
         volume_.as_it_is = true;
         break;
+      case io::Ask::volume:
+        volume_.series = fmt::format("#{}", opened_.scan->series_taken + 1);
+        break;
     }
   changed();
 }
@@ -327,9 +330,15 @@ Status choose_series(Desk& desk, OpenedScan& opened, const std::string& title, d
   closed = choice->closed;
   if (closed) return fine();
   if (!choice->series) return error(Trouble::interrupted, "stopped");
-  if (*choice->series == static_cast<std::size_t>(opened.scan->series_taken)) return fine();
   scenario::BoneRecipe other = opened.volume;
   other.series = fmt::format("#{}", *choice->series + 1);
+  if (*choice->series == static_cast<std::size_t>(opened.scan->series_taken)) {
+    const auto& asked = opened.scan->questions;  // of a file of several volumes: which one
+    if (std::any_of(asked.begin(), asked.end(),
+                    [](const io::Question& one) { return one.ask == io::Ask::volume; }))
+      opened.volume.series = other.series;
+    return fine();
+  }
   auto reopened = read_by_page(desk, other, title, closed);
   if (closed) return fine();
   if (!reopened) return reopened.error();

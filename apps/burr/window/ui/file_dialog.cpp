@@ -50,8 +50,9 @@ void sign(ImDrawList& draw, ImVec2 c, float u, bool folder) {
 }  // namespace
 
 bool burr_reads(const std::string& name) {
-  constexpr std::array kEndings = {".nrrd", ".nhdr", ".nii",  ".nii.gz", ".mha",  ".mhd", ".dcm",
-                                   ".ima",  ".adf",  ".yaml", ".yml",    ".toml", ".mcap"};
+  constexpr std::array kEndings = {".nrrd", ".nhdr", ".nii",  ".nii.gz", ".mha",
+                                   ".mhd",  ".dcm",  ".ima",  ".adf",    ".yaml",
+                                   ".yml",  ".toml", ".mcap", ".tif",    ".tiff"};
   const std::string small = lower(name);
   const std::size_t dot = small.rfind('.');
   // numbers behind the last dot are part of a DICOM name: 1.2.840.10008.4711

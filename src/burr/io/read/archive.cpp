@@ -9,9 +9,11 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "burr/io/read/bytes.h"
+#include "burr/io/read/letters.h"
 
 namespace burr::io {
 namespace {
@@ -121,11 +123,18 @@ std::optional<Result<OpenFile>> open_inside(const std::filesystem::path& path,
   return OpenFile{std::move(source), entry.size};
 }
 
+// A name as it stands in the table: Windows writes backslashes, and old programs the letters of DOS or
+// Japan.
+std::string name_in(std::string_view stored) {
+  const bool windows = stored.find('\\') != std::string_view::npos;
+  std::string name = windows ? with_slashes(std::string(stored)) : std::string(stored);
+  if (windows) name.erase(0, std::min(name.find_first_not_of('/'), name.size()));
+  return utf8_of_name(name);
+}
+
 // A name inside the archive: parts that are names, and no way out of it.
 bool plain(const std::string& name) {
-  if (name.empty() || name.front() == '/' || name.find('\\') != std::string::npos ||
-      name.find('\0') != std::string::npos)
-    return false;
+  if (name.empty() || name.front() == '/' || name.find('\0') != std::string::npos) return false;
   const std::filesystem::path path(name);
   return std::none_of(path.begin(), path.end(),
                       [](const std::filesystem::path& part) { return part == ".."; });
@@ -176,8 +185,8 @@ Status open_archive(const std::filesystem::path& path) {
     const std::size_t name_length = u16(*table, p + 28);
     const std::size_t next = p + kHead + name_length + u16(*table, p + 30) + u16(*table, p + 32);
     if (p + kHead + name_length > table->size()) return cut();
-    const std::string name(table->begin() + static_cast<std::ptrdiff_t>(p + kHead),
-                           table->begin() + static_cast<std::ptrdiff_t>(p + kHead + name_length));
+    const std::string name =
+        name_in({reinterpret_cast<const char*>(table->data()) + p + kHead, name_length});
     const std::uint32_t flags = u16(*table, p + 8), method = u16(*table, p + 10);
     const Entry entry{u32(*table, p + 42), u32(*table, p + 20), u32(*table, p + 24),
                       method == 8,         u32(*table, p + 16), false};
@@ -202,6 +211,15 @@ std::optional<std::vector<std::filesystem::path>> files_in_archive(
   std::vector<std::filesystem::path> all;
   for (const auto& [name, entry] : opened().entries) all.emplace_back(name);
   return all;
+}
+
+std::optional<std::vector<std::filesystem::path>> archive_around(
+    const std::filesystem::path& path) {
+  for (auto at = path.parent_path(); !at.empty(); at = at.parent_path()) {
+    if (auto files = files_in_archive(at)) return files;
+    if (at == at.parent_path()) break;
+  }
+  return std::nullopt;
 }
 
 }  // namespace burr::io

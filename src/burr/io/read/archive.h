@@ -26,4 +26,8 @@ namespace burr::io {
 [[nodiscard]] std::optional<std::vector<std::filesystem::path>> files_in_archive(
     const std::filesystem::path& archive);
 
+// The files of the archive that this path lies in; nothing: it lies on the disk.
+[[nodiscard]] std::optional<std::vector<std::filesystem::path>> archive_around(
+    const std::filesystem::path& path);
+
 }  // namespace burr::io

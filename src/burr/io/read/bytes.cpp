@@ -340,20 +340,6 @@ bool is_dicomdir(const std::filesystem::path& path) {
   return bytes.find("1.2.840.10008.1.3.10") != std::string_view::npos;
 }
 
-Result<std::filesystem::path> beside(const std::filesystem::path& header, const std::string& name) {
-  std::string plain = name;
-  while (plain.rfind("./", 0) == 0) plain.erase(0, 2);
-  const bool bad = plain.empty() || plain == "." || plain == ".." ||
-                   plain.find('/') != std::string::npos || plain.find('\\') != std::string::npos ||
-                   plain.find('\0') != std::string::npos;
-  if (bad)
-    return error(
-        fmt::format("{}: its data file must be in the same folder, but the header names another "
-                    "place; move the file and correct its name in the header",
-                    short_name(header)));
-  return header.parent_path() / plain;
-}
-
 std::string short_name(const std::filesystem::path& path) {
   constexpr std::size_t kLongestName = 255;  // of a file name, on every system [byte]
   const auto name = path.filename().string();

@@ -80,11 +80,6 @@ struct UnpackedFile {
 // An index of DICOM files (DICOMDIR), by its first bytes: the files lie in its folder.
 [[nodiscard]] bool is_dicomdir(const std::filesystem::path& path);
 
-// The path of a data file that a header names and that must lie beside the header. Refused: an
-// absolute name, a name with "..", a name in another folder. The error names the header.
-[[nodiscard]] Result<std::filesystem::path> beside(const std::filesystem::path& header,
-                                                   const std::string& name);
-
 // The file's name without its folder, for error messages: the folder may carry a patient's name.
 [[nodiscard]] std::string short_name(const std::filesystem::path& path);
 

@@ -87,6 +87,8 @@ bool first_is_fill(const std::vector<float>& sorted, double least_share) {
 std::optional<float> find_fill(const Scan& scan, const ValueSample& sample) {
   std::vector<float> sorted = sorted_values(sample);
   if (sorted.size() < 100 || sorted.front() == sorted.back()) return {};
+  // of two values neither is a fill: what is left would be one value, and no picture
+  if (*std::upper_bound(sorted.begin(), sorted.end(), sorted.front()) == sorted.back()) return {};
   if (first_is_fill(sorted, 0.003)) return sorted.front();
   // metal that is cut off at the largest number looks the same, but does not fill the corners
   const float top = sorted.back();

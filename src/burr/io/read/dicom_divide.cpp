@@ -24,14 +24,28 @@ struct Key {
   }
 };
 
-enum class Fact { kernel, kvp, stack, temporal, cardiac, trigger, acquisition, echo, type, time };
-constexpr Fact kFacts[] = {Fact::kernel,  Fact::kvp,     Fact::stack,       Fact::temporal,
-                           Fact::cardiac, Fact::trigger, Fact::acquisition, Fact::echo,
-                           Fact::type,    Fact::time};
+enum class Fact {
+  energy,
+  kernel,
+  kvp,
+  stack,
+  temporal,
+  cardiac,
+  trigger,
+  acquisition,
+  echo,
+  type,
+  time
+};
+constexpr Fact kFacts[] = {Fact::energy,   Fact::kernel,  Fact::kvp,     Fact::stack,
+                           Fact::temporal, Fact::cardiac, Fact::trigger, Fact::acquisition,
+                           Fact::echo,     Fact::type,    Fact::time};
 constexpr std::size_t kIndices = 8;  // of Dimension Index Values
 
 Key key_of(const DicomPhase& p, Fact fact) {
   switch (fact) {
+    case Fact::energy:
+      return {p.energy_kev, ""};
     case Fact::kernel:
       return {0, p.kernel};
     case Fact::kvp:
@@ -60,8 +74,9 @@ Key key_of(const DicomPhase& p, Fact fact) {
 std::string part_name(Fact fact, const Key& key, std::size_t index, std::size_t count) {
   const std::string place = fmt::format("{} of {}", index + 1, count);
   switch (fact) {
+    case Fact::energy:
     case Fact::kernel:
-      return {};  // the list names the kernel of every volume
+      return {};  // the list names them for every volume
     case Fact::kvp:
       return fmt::format("{:g} kV", key.number);
     case Fact::stack:
@@ -335,8 +350,8 @@ class Divider {
                   std::vector<SliceGroup>& out) {
     constexpr std::size_t kLeast = 4, kMost = 16;
     if (slices.size() < 2 * kLeast) return false;
-    for (const Fact fact :
-         {Fact::kernel, Fact::kvp, Fact::temporal, Fact::cardiac, Fact::acquisition}) {
+    for (const Fact fact : {Fact::energy, Fact::kernel, Fact::kvp, Fact::temporal, Fact::cardiac,
+                            Fact::acquisition}) {
       Parts parts = parts_by(slices, [&](const Slice& s) { return key_of(phase(s), fact); });
       if (parts.size() < 2 || parts.size() > kMost) continue;
       if (std::any_of(parts.begin(), parts.end(),

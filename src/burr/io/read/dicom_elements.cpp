@@ -15,19 +15,20 @@ namespace {
 constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
 constexpr Tag kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD;
 constexpr Tag kPixelData = 0x7FE00010, kShared = 0x52009229, kPerFrame = 0x52009230;
-constexpr Tag kSegments = 0x00620002, kSegmentType = 0x0062000F;
+constexpr Tag kSegments = 0x00620002, kSegmentType = 0x0062000F, kSpectral = 0x00189364;
 constexpr int kDeepest = 24;  // nesting of sequences
 
 constexpr Tag kWanted[] = {
     0x00020010, 0x00080005, 0x00080008, 0x00080016, 0x00080018, 0x00080020, 0x00080032, 0x00080033,
-    0x00080060, 0x00080100, 0x00080102, 0x00080104, 0x00080119, 0x0008103E, 0x00089007, 0x00180050,
-    0x00180060, 0x00180081, 0x00180088, 0x00181060, 0x00181210, 0x00182005, 0x00189074, 0x00189082,
-    0x0020000D, 0x0020000E, 0x00200011, 0x00200012, 0x00200013, 0x00200032, 0x00200037, 0x00200052,
-    0x00200100, 0x00201002, 0x00201041, 0x00201209, 0x00209056, 0x00209128, 0x00209153, 0x00209156,
-    0x00209157, 0x00209161, 0x00209162, 0x00209163, 0x00209241, 0x00280002, 0x00280004, 0x00280008,
-    0x00280010, 0x00280011, 0x00280030, 0x00280100, 0x00280101, 0x00280102, 0x00280103, 0x00280120,
-    0x00280121, 0x00281052, 0x00281053, 0x00281054, 0x00620001, 0x00620004, 0x00620005, 0x0062000B,
-    0x0062000D, 0x0062000E, 0x20500020, 0x3004000C};
+    0x00080060, 0x00080100, 0x00080102, 0x00080104, 0x00080119, 0x0008103E, 0x00082111, 0x00089007,
+    0x00180050, 0x00180060, 0x00180081, 0x00180088, 0x00181060, 0x00181114, 0x00181164, 0x00181210,
+    0x00182005, 0x00182010, 0x00189074, 0x00189082, 0x0018937C, 0x0020000D, 0x0020000E, 0x00200011,
+    0x00200012, 0x00200013, 0x00200032, 0x00200037, 0x00200052, 0x00200100, 0x00201002, 0x00201041,
+    0x00201209, 0x00204000, 0x00209056, 0x00209128, 0x00209153, 0x00209156, 0x00209157, 0x00209161,
+    0x00209162, 0x00209163, 0x00209241, 0x00280002, 0x00280004, 0x00280008, 0x00280010, 0x00280011,
+    0x00280030, 0x00280100, 0x00280101, 0x00280102, 0x00280103, 0x00280120, 0x00280121, 0x00281052,
+    0x00281053, 0x00281054, 0x00620001, 0x00620004, 0x00620005, 0x0062000B, 0x0062000D, 0x0062000E,
+    0x20500020, 0x3004000C};
 
 bool wanted(Tag tag) { return std::binary_search(std::begin(kWanted), std::end(kWanted), tag); }
 
@@ -88,9 +89,10 @@ std::uint64_t DicomWalker::walk(std::uint64_t at, std::uint64_t end, int depth, 
     std::uint64_t length = 0, head = 8;
     bool sequence = false;
     // inside the groups of frames, and these groups themselves
-    const bool groups = depth > 0 ? into != nullptr
-                                  : tag == kShared || tag == kPerFrame || tag == kSegments ||
-                                        (structure_set && structure_sequence(tag));
+    const bool groups =
+        depth > 0 ? into != nullptr
+                  : tag == kShared || tag == kPerFrame || tag == kSegments || tag == kSpectral ||
+                        (structure_set && structure_sequence(tag));
     if (!meta_part && !explicit_vr) {
       length = u32(at + 4);
       sequence = length == kUndefined && (tag != kPixelData || depth > 0);
@@ -203,6 +205,7 @@ std::uint64_t DicomWalker::items(Tag sequence, std::uint64_t at, std::uint64_t e
     if (tag != kItem) return fail("a sequence holds something that is not an item");
     Values* into = nullptr;
     if (depth == 0 && sequence == kShared) into = &shared;
+    if (depth == 0 && sequence == kSpectral) into = &spectral;
     if (depth == 0 && sequence == kPerFrame) {
       frames.emplace_back();
       into = &frames.back();

@@ -35,7 +35,7 @@ class DicomWalker {
   bool study = false;                     // what is of the patient and the study is wanted too
   bool structure_set = false;             // what is of a structure set is wanted too
   std::deque<DicomItem> structure_items;  // in the order of the file; stay where they are
-  Values top, shared;
+  Values top, shared, spectral;           // spectral: Multi-energy CT Characteristics Sequence
   std::vector<Values> frames, segments;
   bool has_pixels = false, float_pixels = false, encapsulated = false, modality_lut = false;
   std::uint64_t pixels_at = 0, pixels_length = 0;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "burr/io/read/letters.h"
 #include "burr/io/read/text.h"
 
 namespace burr::io {
@@ -70,6 +71,12 @@ class Facts {
                location = decimals(values, 0x00201041, 1, "Slice Location"),
                slope = decimals(values, 0x00281053, 1, "Rescale Slope"),
                intercept = decimals(values, 0x00281052, 1, "Rescale Intercept");
+    for (const Tag tag : {0x00182010U, 0x00181164U}) {
+      const std::vector<double> gaps = decimals_of(dicom_text(values, tag), 2).values;
+      if (gaps.size() == 2 && gaps[0] > 0 && gaps[1] > 0) frame.imager_gap_mm = {gaps[0], gaps[1]};
+    }
+    const std::vector<double> larger = decimals_of(dicom_text(values, 0x00181114), 1).values;
+    if (!larger.empty() && larger[0] > 0) frame.magnification = larger[0];
     if (position.size() == 3) {
       frame.position_mm = {position[0], position[1], position[2]};
       frame.has_position = true;
@@ -110,13 +117,20 @@ class Facts {
     of_phase(values, frame.phase);
   }
 
+  // The energy of a monoenergetic picture: Monoenergetic Energy Equivalent, else what people wrote.
+  void of_energy(const Values& spectral, const Values& top, DicomPhase& phase) const {
+    for (const Tag tag : {0x0008103EU, 0x00082111U, 0x00204000U, 0x00080008U})
+      if (const double kev = energy_in(dicom_text(top, tag)); kev > 0) phase.energy_kev = kev;
+    real_bits(spectral, 0x0018937C, phase.energy_kev);
+  }
+
   void of_segment(const Values& values, const std::string& letters, DicomSegment& segment) const {
     whole_bits(values, 0x00620004, 2, segment.number);
-    segment.label = dicom_utf8(dicom_text(values, 0x00620005), letters);
+    segment.label = utf8_of_dicom(dicom_text(values, 0x00620005), letters);
     segment.code = dicom_text(values, 0x00080100);
     if (segment.code.empty()) segment.code = dicom_text(values, 0x00080119);  // a long one
     segment.scheme = dicom_text(values, 0x00080102);
-    segment.meaning = dicom_utf8(dicom_text(values, 0x00080104), letters);
+    segment.meaning = utf8_of_dicom(dicom_text(values, 0x00080104), letters);
     const auto lab = values.find(0x0062000D);
     segment.has_colour = lab != values.end() && lab->second.size() == 6;
     for (std::size_t n = 0; n < 3 && segment.has_colour; ++n)
@@ -194,6 +208,7 @@ class Facts {
     real_text(values, 0x00180060, phase.kvp);
     real_text(values, 0x00180081, phase.echo_ms);
     real_bits(values, 0x00189082, phase.echo_ms);
+    real_bits(values, 0x0018937C, phase.energy_kev);
     for (const Tag tag : {0x00080033U, 0x00080032U, 0x00189074U}) time(values, tag, phase.time_s);
     const std::pair<Tag, std::string*> texts[] = {{0x00181210, &phase.kernel},
                                                   {0x00080008, &phase.type},
@@ -260,17 +275,22 @@ std::string date_of(std::string text) {
 
 }  // namespace
 
-std::string dicom_utf8(std::string text, const std::string& letters) {
-  if (letters.find("ISO_IR 100") == std::string::npos &&
-      letters.find("ISO 2022 IR 100") == std::string::npos)
-    return text;
-  std::string out;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x80) out += static_cast<char>(0xC0 | code >> 6);
-    out += static_cast<char>(code >= 0x80 ? 0x80 | (code & 0x3F) : code);
+double energy_in(std::string_view text) {
+  constexpr double kLowest = 20, kHighest = 250;  // of pictures that scanners make [keV]
+  const std::string small = lower(text);
+  for (std::size_t at = small.find("kev"); at != std::string::npos;
+       at = small.find("kev", at + 1)) {
+    std::size_t end = at;
+    while (end > 0 && (small[end - 1] == ' ' || small[end - 1] == '_')) --end;
+    std::size_t from = end;
+    while (from > 0 &&
+           ((small[from - 1] >= '0' && small[from - 1] <= '9') || small[from - 1] == '.'))
+      --from;
+    double value = 0;
+    if (to_number(small.substr(from, end - from), value) && value >= kLowest && value <= kHighest)
+      return value;
   }
-  return out;
+  return DicomPhase::kUnknown;
 }
 
 void take_dicom_facts(const DicomWalker& set, DicomHeader& header) {
@@ -344,6 +364,7 @@ void take_dicom_facts(const DicomWalker& set, DicomHeader& header) {
   Facts facts(header, set.big_endian);
   DicomFrame common;
   facts.of_frame(top, common);
+  facts.of_energy(set.spectral, top, common.phase);
   facts.of_frame(set.shared, common);
   header.frames.assign(static_cast<std::size_t>(header.frame_count), common);
   for (std::size_t f = 0; f < std::min(header.frames.size(), set.frames.size()); ++f) {

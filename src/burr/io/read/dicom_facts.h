@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "burr/io/read/dicom_elements.h"
@@ -19,7 +20,7 @@ struct DicomPhase {
   static constexpr double kUnknown = -1e30;
   int acquisition = 0, temporal = 0;
   double cardiac_percent = kUnknown, trigger_ms = kUnknown, time_s = kUnknown, kvp = kUnknown,
-         echo_ms = kUnknown;
+         echo_ms = kUnknown, energy_kev = kUnknown;  // energy: of a monoenergetic picture
   std::string kernel, type, stack;
   std::vector<std::uint32_t> index;  // Dimension Index Values
 };
@@ -32,6 +33,10 @@ struct DicomFrame {
   math::Vec3 row = math::Vec3::UnitX();         // direction of a row: to the next column
   math::Vec3 column = math::Vec3::UnitY();
   double row_gap_mm = 1, column_gap_mm = 1;  // distance between rows, between columns
+  // Imager Pixel Spacing or Nominal Scanned Pixel Spacing, between rows and between columns: at the
+  // detector, so larger than in the patient; 0: not stated.
+  std::array<double, 2> imager_gap_mm = {0, 0};
+  double magnification = 0;  // Estimated Radiographic Magnification Factor; 0: not stated
   double slope = 1, intercept = 0;
   bool has_rescale = false;
   bool has_lone_intercept = false;  // a Rescale Intercept without a slope
@@ -90,8 +95,8 @@ struct DicomHeader {
 // GE's own transfer syntax: implicit, with big-endian pixels.
 inline constexpr const char* kGePrivate = "1.2.840.113619.5.2";
 
-// Letters of ISO 8859-1 as UTF-8, where `letters` (Specific Character Set) says that they are.
-[[nodiscard]] std::string dicom_utf8(std::string text, const std::string& letters);
+// The energy that a text names, as "MonoE 70 keV" [keV]; DicomPhase::kUnknown: it names none.
+[[nodiscard]] double energy_in(std::string_view text);
 
 // Copies the facts of a data set into the header, whose transfer syntax is already there. Numbers that
 // are none are noted in it.

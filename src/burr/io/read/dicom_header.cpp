@@ -12,21 +12,11 @@
 #include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/dicom_facts.h"
+#include "burr/io/read/dicom_syntaxes.h"
 #include "burr/io/read/text.h"
 
 namespace burr::io {
 namespace {
-
-// The maker of a private transfer syntax, by the root of its number.
-const char* maker_of(const std::string& syntax) {
-  constexpr std::pair<const char*, const char*> kMakers[] = {{"1.2.840.113619.", "GE"},
-                                                             {"1.3.46.670589.", "Philips"},
-                                                             {"1.3.12.2.1107.", "Siemens"},
-                                                             {"1.2.392.200036.9116.", "Canon"}};
-  for (const auto& [root, name] : kMakers)
-    if (syntax.starts_with(root)) return name;
-  return nullptr;
-}
 
 // Is there an element with a plausible tag and type here?
 bool plausible(const std::vector<std::uint8_t>& bytes, std::size_t at) {
@@ -101,14 +91,9 @@ Result<DicomHeader> read_header(const std::filesystem::path& path, bool study, b
       header.transfer_syntax = dicom_text(meta.top, 0x00020010);
     }
     const std::string& syntax = header.transfer_syntax;
-    if (!syntax.empty() && !syntax.starts_with("1.2.840.10008.1.2") && syntax != kGePrivate) {
-      const char* maker = maker_of(syntax);
-      return error(fmt::format(
-          "{}: is DICOM of a transfer syntax that burr does not read: {}{}; export the scan again "
-          "as Explicit VR Little Endian",
-          file, base::printable(syntax),
-          maker != nullptr ? fmt::format(", private to {}", maker) : ""));
-    }
+    if (const std::string why = why_not_read(syntax); !why.empty())
+      return error(
+          fmt::format("{}: {}; export the scan again as Explicit VR Little Endian", file, why));
     if (syntax == "1.2.840.10008.1.2.1.99") {
       auto set = inflated(path, at, total);
       if (!set) return broken(set.error().text);

@@ -27,6 +27,7 @@
 #include "burr/base/printable.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/dicom_header.h"
+#include "burr/io/read/dicom_syntaxes.h"
 
 namespace burr::io {
 namespace {
@@ -215,7 +216,9 @@ Result<std::vector<std::int32_t>> unpack(const DicomHeader& h, std::vector<std::
   std::string preamble(128, '\0');
   preamble += "DICM";
   w.raw(preamble);
-  w.text(0x00020010, "UI", h.transfer_syntax);
+  // OpenJPEG decodes High-Throughput JPEG 2000 too, and GDCM hands it what is called JPEG 2000
+  const bool high = is_high_throughput(h.transfer_syntax);
+  w.text(0x00020010, "UI", high ? "1.2.840.10008.1.2.4.91" : h.transfer_syntax);
   w.text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.2");
   w.text(0x00080060, "CS", "CT");
   w.us(0x00280002, 1);

@@ -61,6 +61,17 @@ void ask_for_missing(const Series& series, const std::vector<Slice>& slices,
 
 }  // namespace
 
+std::string imager_offer(const DicomFrame& frame) {
+  if (frame.imager_gap_mm[0] == 0) return {};
+  const double y = frame.imager_gap_mm[0], x = frame.imager_gap_mm[1];
+  std::string text =
+      fmt::format("; its Imager Pixel Spacing, at the detector, is {:.4g} x {:.4g} mm", x, y);
+  if (frame.magnification > 0)
+    text += fmt::format(", which is {:.4g} x {:.4g} mm in the patient (magnification {:.4g})",
+                        x / frame.magnification, y / frame.magnification, frame.magnification);
+  return text;
+}
+
 Holes holes_in(const std::vector<double>& gaps, double usual) {
   Holes out;
   constexpr std::size_t kNamed = 5, kOtherDistance = 3;

@@ -24,6 +24,11 @@ struct Holes {
 // Three or more equal wide gaps beside each other are another distance, not a hole.
 [[nodiscard]] Holes holes_in(const std::vector<double>& gaps, double usual);
 
+// What a picture of a flat detector states in place of Pixel Spacing, as the end of a sentence: the
+// distance of its pixels at the detector, which is larger than in the patient, so it is offered and not
+// taken. Empty: it states none.
+[[nodiscard]] std::string imager_offer(const DicomFrame& frame);
+
 struct Stacking {
   Order order = Order::positions;
   bool check_scan = true;  // asks where slices are missing; false: as burr did before 2026-11-29

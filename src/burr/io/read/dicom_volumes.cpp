@@ -45,6 +45,51 @@ bool bone_kernel(const Series& series, const Volume& volume) {
          bone_kernel(frame_of(series, volume.slices.front()).phase.kernel);
 }
 
+// ---- energies of a spectral scan
+
+// 0: it states none.
+double energy_of(const std::vector<Series>& all, const Volume& volume) {
+  return std::max(0.0, frame_of(all[volume.series], volume.slices.front()).phase.energy_kev);
+}
+
+// Values that are amounts of a material, or its atomic number (PS3.3 C.11.1.1.2).
+bool is_map(const DicomHeader& h) {
+  constexpr const char* kMaps[] = {"MGML", "Z_EFF", "ED", "EDW", "PCT"};
+  return std::any_of(std::begin(kMaps), std::end(kMaps),
+                     [&](const char* one) { return h.rescale_type == one; });
+}
+
+// The energies of the volumes that are about as long as this one, ascending.
+std::vector<double> energies_like(const std::vector<Series>& all,
+                                  const std::vector<Volume>& volumes, const Volume& one) {
+  std::set<double> found;
+  for (const Volume& volume : volumes)
+    if (const double kev = energy_of(all, volume);
+        kev > 0 && 2 * volume.slices.size() >= one.slices.size())
+      found.insert(kev);
+  return {found.begin(), found.end()};
+}
+
+// Of these the one at which bone looks as in a usual CT of 120 kV.
+double usual_energy(const std::vector<double>& energies) {
+  constexpr double kUsual = 70;  // [keV]
+  return *std::min_element(energies.begin(), energies.end(), [](double a, double b) {
+    return std::abs(a - kUsual) < std::abs(b - kUsual);
+  });
+}
+
+// "40, 70 and 100 keV"
+std::string energies_text(const std::vector<double>& energies) {
+  std::string list;
+  for (std::size_t n = 0; n < energies.size(); ++n)
+    list += fmt::format("{}{:g}",
+                        n == 0                     ? ""
+                        : n + 1 == energies.size() ? " and "
+                                                   : ", ",
+                        energies[n]);
+  return list + " keV";
+}
+
 // ---- size and orientation, and the order of slices
 
 std::vector<Slices> kinds_of(const Series& series) {
@@ -167,6 +212,7 @@ double worth(const Series& series, const Volume& volume) {
   if (h.modality == "CT") sum += 100;
   if (count >= 4) sum += 60;
   if (scout(h) || has(h.image_type, "secondary") || has(h.image_type, "screen")) sum -= 80;
+  if (is_map(h)) sum -= 80;
   sum += 12 * std::log2(count + 1);
   sum -= 12 * std::log2(std::clamp(thickness > 0 ? thickness : 5.0, 0.05, 20.0));
   if (bone_kernel(series, volume)) sum += 10;
@@ -234,62 +280,104 @@ std::string one_line(const Series& series, const Volume& volume, std::size_t pla
   const double gap = gap_of(volume) > 0 ? gap_of(volume) : thickness_mm(series, slice);
   std::string kernel = frame.phase.kernel.substr(0, frame.phase.kernel.find('\\'));
   if (!kernel.empty()) kernel = ", kernel " + base::printable(trimmed(kernel), 16);
-  return fmt::format("#{}: {} {} pictures {} x {}, {}{}{}{}{}{}", place + 1,
+  const double kev = frame.phase.energy_kev;
+  return fmt::format("#{}: {} {} pictures {} x {}, {}{}{}{}{}{}{}", place + 1,
                      h.modality.empty() ? "unknown kind," : base::printable(h.modality, 16) + ",",
                      volume.slices.size(), h.columns, h.rows,
                      gap > 0 ? fmt::format("{:.3g} mm", gap) : std::string("thickness unknown"),
-                     plane_of(frame), kernel, volume.part.empty() ? "" : ", " + volume.part,
-                     scout(h) ? ", scout" : "", bone_kernel(series, volume) ? ", bone kernel" : "");
+                     plane_of(frame), kev > 0 ? fmt::format(", {:g} keV", kev) : "", kernel,
+                     volume.part.empty() ? "" : ", " + volume.part, scout(h) ? ", scout" : "",
+                     bone_kernel(series, volume) ? ", bone kernel" : "");
 }
 
-Result<std::size_t> choose(const Found& found, const std::vector<Volume>& volumes,
-                           const ReadOptions& options, const std::string& file, Scan& scan) {
-  const std::vector<Series>& all = found.series;
+namespace {
+
+// Of each series the best of those volumes that count, and of these the best; volumes.size(): none.
+template <class Counts>
+std::size_t best_of(const std::vector<Series>& all, const std::vector<Volume>& volumes,
+                    Counts counts) {
+  std::map<std::size_t, std::size_t> best;
+  for (std::size_t v = 0; v < volumes.size(); ++v) {
+    if (!counts(volumes[v])) continue;
+    const auto [now, fresh] = best.try_emplace(volumes[v].series, v);
+    if (!fresh && better(all[volumes[v].series], volumes[v], volumes[now->second])) now->second = v;
+  }
+  std::size_t most = volumes.size();
+  for (const auto& [series, v] : best)
+    if (most == volumes.size() ||
+        worth(all[series], volumes[v]) > worth(all[volumes[most].series], volumes[most]))
+      most = v;
+  return most;
+}
+
+std::string list_of(const std::vector<Series>& all, const std::vector<Volume>& volumes) {
   constexpr std::size_t kNamed = 64;  // in a sentence
   std::string list;
   for (std::size_t v = 0; v < std::min(volumes.size(), kNamed); ++v)
     list += (v > 0 ? "; " : "") + one_line(all[volumes[v].series], volumes[v], v);
   if (volumes.size() > kNamed) list += fmt::format("; and {} more", volumes.size() - kNamed);
-  // of each series its best volume, and of these the best
-  const auto best_of = [&](auto counts) {
-    std::map<std::size_t, std::size_t> best;
-    for (std::size_t v = 0; v < volumes.size(); ++v) {
-      const auto [now, fresh] = best.try_emplace(volumes[v].series, v);
-      if (!fresh && better(all[volumes[v].series], volumes[v], volumes[now->second]))
-        now->second = v;
-    }
-    std::size_t most = volumes.size();
-    for (const auto& [series, v] : best)
-      if (counts(volumes[v]) &&
-          (most == volumes.size() ||
-           worth(all[series], volumes[v]) > worth(all[volumes[most].series], volumes[most])))
-        most = v;
-    return most;
-  };
-  if (!options.series.empty()) {
-    const std::size_t mark = std::min(options.series.find('#'), options.series.size());
-    const std::string uid = options.series.substr(0, mark);
-    std::int64_t place = 0;
-    const bool numbered = mark < options.series.size();
-    const bool good =
-        !numbered || (to_number(options.series.substr(mark + 1), place) && place >= 1);
-    std::set<std::size_t> fits;
-    std::vector<std::size_t> members;
-    for (std::size_t v = 0; v < volumes.size(); ++v)
-      if (all[volumes[v].series].uid.rfind(uid, 0) == 0) {
-        fits.insert(volumes[v].series);
-        members.push_back(v);
-      }
-    if (good && numbered && (uid.empty() || fits.size() == 1) &&
-        place <= static_cast<std::int64_t>(members.size()))
-      return members[static_cast<std::size_t>(place - 1)];
-    if (good && !numbered && fits.size() == 1)
-      return best_of([&](const Volume& v) { return v.series == *fits.begin(); });
+  return list;
+}
+
+// The whole text is the name of an energy, as "70 keV" or "70kev"; 0: it is not.
+double named_energy(std::string_view text) {
+  const std::string small = lower(trimmed(text));
+  if (!small.ends_with("kev")) return 0;
+  double value = 0;
+  return to_number(small.substr(0, small.size() - 3), value) && value > 0 ? value : 0;
+}
+
+// The volume that the options name.
+Result<std::size_t> named_volume(const std::vector<Series>& all, const std::vector<Volume>& volumes,
+                                 const std::string& name, const std::string& file) {
+  if (const double kev = named_energy(name); kev > 0) {
+    constexpr double kSame = 0.5;  // [keV]
+    const std::size_t best = best_of(
+        all, volumes, [&](const Volume& v) { return std::abs(energy_of(all, v) - kev) < kSame; });
+    if (best < volumes.size()) return best;
     return error(Trouble::usage,
-                 fmt::format("{}: {} series match `series` \"{}\"; there are {}", file,
-                             numbered ? 0 : fits.size(), options.series, list));
+                 fmt::format("{}: no volume is of {:g} keV (`series`); there are {}", file, kev,
+                             list_of(all, volumes)));
   }
-  const std::size_t best = best_of([](const Volume&) { return true; });
+  const std::size_t mark = std::min(name.find('#'), name.size());
+  const std::string uid = name.substr(0, mark);
+  std::int64_t place = 0;
+  const bool numbered = mark < name.size();
+  const bool good = !numbered || (to_number(name.substr(mark + 1), place) && place >= 1);
+  std::set<std::size_t> fits;
+  std::vector<std::size_t> members;
+  for (std::size_t v = 0; v < volumes.size(); ++v)
+    if (all[volumes[v].series].uid.rfind(uid, 0) == 0) {
+      fits.insert(volumes[v].series);
+      members.push_back(v);
+    }
+  if (good && numbered && (uid.empty() || fits.size() == 1) &&
+      place <= static_cast<std::int64_t>(members.size()))
+    return members[static_cast<std::size_t>(place - 1)];
+  if (good && !numbered && fits.size() == 1)
+    return best_of(all, volumes, [&](const Volume& v) { return v.series == *fits.begin(); });
+  return error(Trouble::usage,
+               fmt::format("{}: {} series match `series` \"{}\"; there are {}", file,
+                           numbered ? 0 : fits.size(), name, list_of(all, volumes)));
+}
+
+}  // namespace
+
+Result<std::size_t> choose(const Found& found, const std::vector<Volume>& volumes,
+                           const ReadOptions& options, const std::string& file, Scan& scan) {
+  const std::vector<Series>& all = found.series;
+  if (!options.series.empty()) return named_volume(all, volumes, options.series, file);
+  std::size_t best = best_of(all, volumes, [](const Volume&) { return true; });
+  std::vector<double> energies;
+  if (energy_of(all, volumes[best]) > 0) energies = energies_like(all, volumes, volumes[best]);
+  if (energies.size() > 1) {
+    const double usual = usual_energy(energies);
+    const std::size_t length = volumes[best].slices.size();
+    best = best_of(all, volumes, [&](const Volume& v) {
+      return energy_of(all, v) == usual && 2 * v.slices.size() >= length;
+    });
+  }
+  const std::string list = list_of(all, volumes);
   if (volumes.size() > all.size())
     scan.notices.push_back(fmt::format(
         "{} volumes found in {} series ({}); #{} was taken (of one series: the most slices, then "
@@ -299,6 +387,12 @@ Result<std::size_t> choose(const Found& found, const std::vector<Volume>& volume
     scan.notices.push_back(
         fmt::format("{} series found ({}); #{} is used, choose another with `series`.", all.size(),
                     list, best + 1));
+  if (energies.size() > 1)
+    scan.notices.push_back(fmt::format(
+        "The scan was computed for {}: {:g} keV was taken; choose another by its name "
+        "with `series`, as \"{:g} keV\".",
+        energies_text(energies), energy_of(all, volumes[best]),
+        energies.front() == energy_of(all, volumes[best]) ? energies.back() : energies.front()));
   return best;
 }
 

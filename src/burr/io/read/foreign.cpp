@@ -10,13 +10,8 @@ namespace burr::io {
 namespace {
 
 constexpr const char* kStack =
-    "a stack of pictures does not state its voxel size; load it in 3D Slicer (module ImageStacks) "
-    "or Fiji with its voxel size, and save it as .nrrd";
-constexpr const char* kPng =
-    "a stack of pictures does not state its voxel size; put the ADF (.yaml) of AMBF that names it "
-    "into the folder, or load it in 3D Slicer (module ImageStacks) or Fiji with its voxel size, "
-    "and "
-    "save it as .nrrd";
+    "burr reads stacks of TIFF, PNG and BMP pictures in grey; save the stack as TIFF and give the "
+    "folder that holds it";
 constexpr const char* kMesh =
     "it is a surface without an inside; give burr the scan or the segmentation that it was made "
     "from, or make a label map of it in 3D Slicer (import it as a segmentation) and save it as "
@@ -36,6 +31,11 @@ bool left_by_a_system(const std::filesystem::path& path, const std::filesystem::
                      [](const std::filesystem::path& part) { return left_by_a_system(part); });
 }
 
+bool named_as_picture(const std::filesystem::path& path) {
+  const std::string ending = lower(path.extension().string());
+  return ending == ".tif" || ending == ".tiff" || ending == ".png" || ending == ".bmp";
+}
+
 Foreign foreign(const std::filesystem::path& path, const std::vector<std::uint8_t>& head) {
   const std::string_view bytes(reinterpret_cast<const char*>(head.data()), head.size());
   const std::string ending = lower(path.extension().string());
@@ -44,11 +44,7 @@ Foreign foreign(const std::filesystem::path& path, const std::vector<std::uint8_
     return std::find(all.begin(), all.end(), ending) != all.end();
   };
   using namespace std::string_view_literals;
-  if (begins("II*\0"sv) || begins("MM\0*"sv) || begins("II+\0"sv) || begins("MM\0+"sv))
-    return {"a TIFF picture", kStack};
   if (begins("\xFF\xD8\xFF")) return {"a JPEG picture", kStack};
-  if (begins("\x89PNG")) return {"a PNG picture", kPng};
-  if (begins("BM") && ending == ".bmp") return {"a BMP picture", kStack};
   if (begins("\0\0\0\x0CjP  "sv)) return {"a JPEG 2000 picture", kStack};
   if (begins("ply\n") || begins("ply\r")) return {"a PLY mesh", kMesh};
   if (begins("glTF") || ends({".gltf"})) return {"a glTF mesh", kMesh};

@@ -18,7 +18,10 @@ namespace burr::io {
 [[nodiscard]] bool left_by_a_system(const std::filesystem::path& path,
                                     const std::filesystem::path& root);
 
-// A format that burr does not read, though people have it: what it is ("a TIFF picture") and what
+// ".tif", ".png", ".bmp": pictures that may be of a stack.
+[[nodiscard]] bool named_as_picture(const std::filesystem::path& path);
+
+// A format that burr does not read, though people have it: what it is ("a JPEG picture") and what
 // to do instead. Both empty: none of them.
 struct Foreign {
   std::string what, instead;

@@ -200,6 +200,14 @@ bool usable(const Affine& affine) {
   return std::abs(unit.determinant()) > 0.05;
 }
 
+void no_spacing(std::string_view file, bool check_scan, Scan& scan) {
+  if (check_scan)
+    scan.ask(Ask::spacing, fmt::format("{}: states no voxel spacing (taken for 1 mm)", file));
+  else
+    scan.notices.emplace_back(
+        "The file states no voxel spacing: 1 mm is assumed; see `spacing_mm`.");
+}
+
 Status resample_upright(Scan& scan, const std::vector<SlicePlace>& places, double gap_mm,
                         Progress& progress) {
   const auto fits = upright_grid(scan, places, gap_mm);
@@ -304,10 +312,18 @@ Status place(Scan& scan, const Affine& affine, const Vec3& spacing_mm, std::stri
   scan.origin_mm = origin;
 
   if ((spacing_mm.array() > 0).all()) {
-    scan.notices.push_back(fmt::format(
-        "The spacing is {:.4g} x {:.4g} x {:.4g} mm as given by `spacing_mm`, instead of {:.4g} x "
-        "{:.4g} x {:.4g} mm in the file.",
-        spacing_mm.x(), spacing_mm.y(), spacing_mm.z(), length.x(), length.y(), length.z()));
+    const bool stated = std::none_of(scan.questions.begin(), scan.questions.end(),
+                                     [](const Question& one) { return one.ask == Ask::spacing; });
+    if (!stated)
+      scan.notices.push_back(
+          fmt::format("The spacing is {:.4g} x {:.4g} x {:.4g} mm as given by `spacing_mm`.",
+                      spacing_mm.x(), spacing_mm.y(), spacing_mm.z()));
+    else
+      scan.notices.push_back(fmt::format(
+          "The spacing is {:.4g} x {:.4g} x {:.4g} mm as given by `spacing_mm`, instead of {:.4g} "
+          "x "
+          "{:.4g} x {:.4g} mm in the file.",
+          spacing_mm.x(), spacing_mm.y(), spacing_mm.z(), length.x(), length.y(), length.z()));
     scan.spacing_mm = spacing_mm;
   }
   return fine();

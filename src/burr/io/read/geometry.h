@@ -28,6 +28,10 @@ struct Affine {
 [[nodiscard]] Status place(Scan& scan, const Affine& affine, const math::Vec3& spacing_mm,
                            std::string_view file, Progress& progress);
 
+// What a file without a spacing leaves open: a question, or, of a recording of before 2026-11-29
+// (check_scan false), a notice. It is taken for 1 mm.
+void no_spacing(std::string_view file, bool check_scan, Scan& scan);
+
 // The true position of one slice, in the frame of the stack.
 struct SlicePlace {
   double x_mm = 0, y_mm = 0;  // in-plane offset from the first slice

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "burr/base/printable.h"
+#include "burr/io/read/beside.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/text.h"
 
@@ -80,16 +81,16 @@ Result<NrrdHeader> parse_nrrd(const std::string& text, const std::string& file) 
 }
 
 Result<std::vector<std::filesystem::path>> nrrd_data_files(const NrrdHeader& header,
-                                                           const std::filesystem::path& path) {
+                                                           const std::filesystem::path& path,
+                                                           std::vector<std::string>& notices) {
   std::vector<std::filesystem::path> files;
   const auto field = header.fields.find("datafile");
   if (field == header.fields.end()) return files;
   std::vector<std::string> names;
   const std::vector<std::string> parts = words(field->second);
   std::int64_t from = 0, to = 0, step = 1;
-  std::error_code ignored;
-  const auto exact = beside(path, field->second);  // a name may look like a pattern
-  if (exact && std::filesystem::exists(*exact, ignored)) {
+  const auto exact = data_file_beside(path, field->second);  // a name may look like a pattern
+  if (exact && file_is_there(exact->path)) {
     names.push_back(field->second);
   } else if (!parts.empty() && parts[0] == "LIST") {
     names = header.file_list;
@@ -112,15 +113,14 @@ Result<std::vector<std::filesystem::path>> nrrd_data_files(const NrrdHeader& hea
     names.push_back(field->second);
   }
   for (const std::string& name : names) {
-    auto file = beside(path, name);
+    auto file = data_file_beside(path, name);
     if (!file) return file.error();
-    std::error_code trouble;
-    const auto kind = std::filesystem::symlink_status(*file, trouble).type();
-    if (kind != std::filesystem::file_type::regular)
+    if (!file_is_there(file->path))
       return error(fmt::format(
           "{}: its data file {} is missing or not a regular file; put it in the same folder",
-          short_name(path), short_name(*file)));
-    files.push_back(*file);
+          short_name(path), short_name(file->path)));
+    if (files.empty() && !file->notice.empty()) notices.push_back(file->notice);
+    files.push_back(file->path);
   }
   return files;
 }

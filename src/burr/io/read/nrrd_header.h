@@ -23,9 +23,10 @@ struct NrrdHeader {
 // Error: it does not begin as NRRD, or a line is none of a header. file: its name for errors.
 [[nodiscard]] Result<NrrdHeader> parse_nrrd(const std::string& text, const std::string& file);
 
-// The names of all data files; empty: the data is in the header's own file.
+// The names of all data files; empty: the data is in the header's own file. Where a name is not exactly
+// that of a file, a notice says which was taken.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> nrrd_data_files(
-    const NrrdHeader& header, const std::filesystem::path& path);
+    const NrrdHeader& header, const std::filesystem::path& path, std::vector<std::string>& notices);
 
 struct NrrdSegments {
   std::vector<Label> labels;  // their values as in the file

@@ -128,15 +128,6 @@ Result<Adf> adf_of(const fs::path& path) {
 
 // ---- the pictures
 
-// The archive that this path lies in; nothing: it lies on the disk.
-std::optional<std::vector<fs::path>> archive_around(const fs::path& path) {
-  for (fs::path at = path.parent_path(); !at.empty(); at = at.parent_path()) {
-    if (auto files = files_in_archive(at)) return files;
-    if (at == at.parent_path()) break;
-  }
-  return std::nullopt;
-}
-
 // "plane0012.png" with the prefix "plane00": 12. Nothing: another name.
 std::optional<int> number_of(const std::string& name, const std::string& prefix) {
   constexpr std::size_t kMostDigits = 9;

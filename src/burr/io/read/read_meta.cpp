@@ -7,11 +7,13 @@
 #include <system_error>
 
 #include "burr/base/printable.h"
+#include "burr/io/read/beside.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/modality.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
+#include "burr/io/read/several_volumes.h"
 #include "burr/io/read/text.h"
 
 namespace burr::io {
@@ -75,19 +77,32 @@ bool is_true(const std::string& text) {
   return !text.empty() && (text[0] == 'T' || text[0] == 't' || text[0] == '1');
 }
 
-Result<math::Ijk> size_of(const Header& header) {
+// Three axes of space, and perhaps a fourth that counts volumes.
+struct Size {
+  math::Ijk voxels = {0, 0, 0};
+  std::int64_t volumes = 1;
+  std::size_t axes = 3;
+};
+
+Result<Size> size_of(const Header& header) {
   std::int64_t dims = 0;
   if (!to_number(header.get({"NDims"}), dims))
     return header.bad("NDims", "is missing; this is not a MetaImage");
-  if (dims != 3)
-    return header.bad("NDims",
-                      fmt::format("3 axes expected, {} found; burr reads single volumes", dims));
+  if (dims != 3 && dims != 4)
+    return header.bad("NDims", fmt::format("3 axes expected, {} found; {}", dims,
+                                           dims < 3 ? "a single picture is not a volume"
+                                                    : "save one volume of it"));
   const std::vector<double> size = numbers(header.get({"DimSize"}));
-  if (size.size() != 3) return header.bad("DimSize", "must be three sizes");
+  if (size.size() != static_cast<std::size_t>(dims))
+    return header.bad("DimSize", dims == 3 ? "must be three sizes" : "must be four sizes");
   for (const double n : size)
     if (!(n >= 1 && n <= 1e9) || n != std::floor(n))
       return header.bad("DimSize", "must be whole numbers above 0");
-  return math::Ijk(static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
+  Size out;
+  for (int a = 0; a < 3; ++a) out.voxels[a] = static_cast<int>(size[static_cast<std::size_t>(a)]);
+  out.axes = size.size();
+  if (dims == 4) out.volumes = static_cast<std::int64_t>(size[3]);
+  return out;
 }
 
 // A factor of the values, if the file gives one.
@@ -129,11 +144,9 @@ Result<SampleFormat> format_of(const Header& header) {
 
 // The one file beside the header that holds the voxels. Its name may hold blanks and per cent signs;
 // where no such file is there, it is a list or a pattern.
-Result<std::filesystem::path> data_file(const std::filesystem::path& header,
-                                        const std::string& name) {
-  std::error_code ignored;
-  auto exact = beside(header, name);
-  if (exact && std::filesystem::exists(*exact, ignored)) return exact;
+Result<DataFile> data_file(const std::filesystem::path& header, const std::string& name) {
+  auto exact = data_file_beside(header, name);
+  if (exact && file_is_there(exact->path)) return exact;
   const std::vector<std::string> parts = words(name);
   if (parts.empty() || parts.front() == "LIST" ||
       (parts.size() > 1 && name.find('%') != std::string::npos))
@@ -156,13 +169,15 @@ Result<OpenFile> open_voxels(const std::filesystem::path& path, std::uint64_t of
 }
 
 // Opens the data: after the header, or in one file beside it. The size is that of the data.
-Result<OpenFile> open_data(const std::filesystem::path& path, const Header& header) {
+Result<OpenFile> open_data(const std::filesystem::path& path, const Header& header,
+                           std::vector<std::string>& notices) {
   const std::string name = header.get({"ElementDataFile"});
   if (name.empty()) return header.bad("ElementDataFile", "is missing");
   const bool own = name == "LOCAL" || name == "Local" || name == "local";
-  const auto data = own ? Result<std::filesystem::path>(path) : data_file(path, name);
+  const auto data = own ? Result<DataFile>(DataFile{path, ""}) : data_file(path, name);
   if (!data) return data.error();
-  auto opened = open_voxels(*data, own ? header.end : 0, own);
+  if (!data->notice.empty()) notices.push_back(data->notice);
+  auto opened = open_voxels(data->path, own ? header.end : 0, own);
   if (!opened && own) return opened.error();
   if (!opened)  // the header is wrong, or the data file was left behind
     return error(fmt::format("{}: its data file: {}; put it in the same folder", header.file,
@@ -171,10 +186,18 @@ Result<OpenFile> open_data(const std::filesystem::path& path, const Header& head
   return opened;
 }
 
+// Of `volumes` in the file the one with this index.
+struct Wanted {
+  std::size_t count = 0;  // its voxels
+  std::uint64_t index = 0, volumes = 1;
+};
+
 // Reads the voxels of an opened file into the scan.
-Status read_voxels(const Header& header, const SampleFormat& format, std::size_t count,
+Status read_voxels(const Header& header, const SampleFormat& format, const Wanted& wanted,
                    OpenFile data, bool check_values, Scan& scan, Progress& progress) {
-  const std::uint64_t needed = count * bytes_of(format.type), there = data.size;
+  const std::size_t count = wanted.count;
+  const std::uint64_t each = count * bytes_of(format.type), needed = each * wanted.volumes,
+                      there = data.size;
   const bool packed = is_true(header.get({"CompressedData"}));
   std::int64_t header_size = 0;
   const std::string header_text = header.get({"HeaderSize"});
@@ -190,6 +213,7 @@ Status read_voxels(const Header& header, const SampleFormat& format, std::size_t
   std::unique_ptr<ByteSource> source = std::move(data.source);
   Status read = skip(*source, static_cast<std::uint64_t>(header_size));
   if (packed) source = inflate_zlib(std::move(source));
+  source = only_share(std::move(source), share_of(wanted.index, wanted.volumes, each));
   VoxelSink sink(count);
   if (read) read = read_samples(*source, format, count, sink, progress);
   if (!read)
@@ -199,32 +223,40 @@ Status read_voxels(const Header& header, const SampleFormat& format, std::size_t
   return fine();
 }
 
-// Without a spacing it is taken for 1 mm, with a notice.
-Result<Affine> affine_of(const Header& header, std::vector<std::string>& notices) {
+// Without a spacing it is taken for 1 mm, and asked for.
+Result<Affine> affine_of(const Header& header, std::size_t axes, bool check_scan, Scan& scan) {
+  std::vector<std::string>& notices = scan.notices;
   Affine affine;
   const auto vector = [&](std::initializer_list<const char*> names, std::size_t count) {
     return numbers(header.get(names), count, header.commas);
   };
-  const std::vector<double> turn = vector({"TransformMatrix", "Rotation", "Orientation"}, 9);
-  if (turn.size() == 9)  // the file lists the direction of i, then of j, then of k
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) affine.step(b, a) = turn[static_cast<std::size_t>(3 * a + b)];
+  const std::vector<double> turn =
+      vector({"TransformMatrix", "Rotation", "Orientation"}, axes * axes);
+  if (turn.size() == axes * axes)  // the file lists the direction of i, then of j, then of k
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b)
+        affine.step(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)) =
+            turn[axes * a + b];
   const std::string spacing_text = header.get({"ElementSpacing", "ElementSize"});
-  std::vector<double> spacing = vector({"ElementSpacing", "ElementSize"}, 3);
+  std::vector<double> spacing = vector({"ElementSpacing", "ElementSize"}, axes);
   if (spacing.empty() && !spacing_text.empty())
     return header.bad("ElementSpacing",
-                      fmt::format("\"{}\" is not three numbers; correct the header",
-                                  base::printable(spacing_text)));
-  const bool spaced = spacing.size() == 3 && std::isfinite(spacing[0] + spacing[1] + spacing[2]) &&
+                      fmt::format("\"{}\" is not {} numbers; correct the header",
+                                  base::printable(spacing_text), axes == 3 ? "three" : "four"));
+  const bool spaced = spacing.size() == axes &&
+                      std::isfinite(spacing[0] + spacing[1] + spacing[2]) &&
                       spacing[0] * spacing[1] * spacing[2] != 0;
   if (!spaced) {
     spacing = {1, 1, 1};
-    notices.emplace_back(
-        "The file states no usable voxel spacing: 1 mm is assumed; see `spacing_mm`.");
+    if (check_scan)
+      no_spacing(header.file, check_scan, scan);
+    else
+      notices.emplace_back(
+          "The file states no usable voxel spacing: 1 mm is assumed; see `spacing_mm`.");
   }
   for (int a = 0; a < 3; ++a) affine.step.col(a) *= std::abs(spacing[static_cast<std::size_t>(a)]);
-  const std::vector<double> origin = vector({"Offset", "Position", "Origin"}, 3);
-  if (origin.size() == 3) affine.origin = Vec3(origin[0], origin[1], origin[2]);
+  const std::vector<double> origin = vector({"Offset", "Position", "Origin"}, axes);
+  if (origin.size() == axes) affine.origin = Vec3(origin[0], origin[1], origin[2]);
   if (header.commas)
     notices.emplace_back(
         "The file writes numbers with a decimal comma (\"0,5\"): read as decimal points.");
@@ -253,20 +285,23 @@ Result<Scan> read_meta(const std::filesystem::path& path, const ReadOptions& opt
   scan.format = "MetaImage";
   const auto size = size_of(header);
   if (!size) return size.error();
-  scan.size = *size;
-  const auto count = voxel_count(header.file, size->x(), size->y(), size->z());
+  scan.size = size->voxels;
+  const auto count = voxel_count(header.file, scan.size.x(), scan.size.y(), scan.size.z());
   if (!count) return count.error();
+  const auto volumes = static_cast<std::uint64_t>(size->volumes);
+  const auto volume = take_volume(volumes, options, header.file, scan);
+  if (!volume) return volume.error();
   const auto format = format_of(header);
   if (!format) return format.error();
-  auto data = open_data(path, header);
+  auto data = open_data(path, header, scan.notices);
   if (!data) return data.error();
-  if (Status read = read_voxels(header, *format, *count, std::move(*data), options.check_values,
-                                scan, progress);
+  if (Status read = read_voxels(header, *format, {*count, *volume, volumes}, std::move(*data),
+                                options.check_values, scan, progress);
       !read)
     return read.error();
   if (options.check_scan && scan.labels.empty())
     take_modality(modality_in(header), "", header.file, scan);
-  const auto affine = affine_of(header, scan.notices);
+  const auto affine = affine_of(header, size->axes, options.check_scan, scan);
   if (!affine) return affine.error();
   if (Status placed = place(scan, *affine, options.spacing_mm, header.file, progress); !placed)
     return placed.error();

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <system_error>
 
 #include <Eigen/Geometry>
 
+#include "burr/io/read/beside.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/compare_frames.h"
 #include "burr/io/read/geometry.h"
@@ -19,6 +19,7 @@
 #include "burr/io/read/modality.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
+#include "burr/io/read/several_volumes.h"
 #include "burr/io/read/text.h"
 
 namespace burr::io {
@@ -248,6 +249,7 @@ Affine affine_of(const Nifti& n, const std::string& file, bool check_scan, Scan&
     found.reset();
   }
   if (found && check_scan) compare_with_sform(n, *found, spacing, guessed, file, scan);
+  const bool sized = found.has_value();  // the sform alone states the spacing too
   if (!found) found = qform_of(n, spacing);
   Affine affine;
   if (found) {
@@ -256,10 +258,8 @@ Affine affine_of(const Nifti& n, const std::string& file, bool check_scan, Scan&
     affine.step = (mm_per_unit(n) * spacing).asDiagonal();
     scan.notices.emplace_back(
         "The file does not state its orientation: right, anterior, superior is assumed.");
-    if (guessed)
-      scan.notices.emplace_back(
-          "The file states no voxel spacing: 1 mm is assumed; see `spacing_mm`.");
   }
+  if (!sized && guessed && (check_scan || !found)) no_spacing(file, check_scan, scan);
   const Mat3 lps_from_ras = Vec3(-1, -1, 1).asDiagonal();
   affine.step = lps_from_ras * affine.step;
   affine.origin = lps_from_ras * affine.origin;
@@ -274,19 +274,16 @@ bool described_as_mr(const Nifti& n) {
          n.description[at + 3] <= '9';
 }
 
-// "x.hdr.gz" <-> "x.img.gz"; each part may be compressed or not
+// "x.hdr.gz" <-> "x.img.gz"; each part may be compressed or not. Empty: it is not there.
 std::filesystem::path partner(const std::filesystem::path& path, const char* from, const char* to) {
   std::string name = path.filename().string();
   const std::size_t at = lower(name).rfind(from);
   if (at == std::string::npos) return {};
   name.replace(at, 4, to);
-  auto other = path.parent_path() / name;
-  std::error_code trouble;
-  if (std::filesystem::exists(other, trouble)) return other;
-  other = name.size() > 3 && name.substr(name.size() - 3) == ".gz"
-              ? path.parent_path() / name.substr(0, name.size() - 3)
-              : path.parent_path() / (name + ".gz");
-  return std::filesystem::exists(other, trouble) ? other : std::filesystem::path();
+  if (const auto other = find_beside(path, name)) return *other;
+  const bool packed = lower(name).ends_with(".gz");
+  const auto other = find_beside(path, packed ? name.substr(0, name.size() - 3) : name + ".gz");
+  return other.value_or(std::filesystem::path());
 }
 
 // Names of labels in the extensions between the header and the voxels (nifti1.h, "extension"): 4
@@ -320,6 +317,23 @@ std::vector<Label> labels_in_extensions(const Nifti& header, std::size_t header_
   return labels;
 }
 
+// Axes beyond the third count volumes: times, directions, channels.
+Result<std::uint64_t> volumes_in(const Nifti& header, const std::string& file) {
+  if (header.dim[0] < 1 || header.dim[0] > 7)
+    return error(fmt::format("{}: dim[0] is {}, but 3 was expected", file, header.dim[0]));
+  if (header.dim[0] < 3)
+    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is not a volume",
+                             file, header.dim[0]));
+  std::uint64_t volumes = 1;
+  constexpr std::uint64_t kMost = 1'000'000;
+  for (std::size_t a = 4; a <= static_cast<std::size_t>(header.dim[0]); ++a) {
+    if (header.dim[a] > 1) volumes *= static_cast<std::uint64_t>(header.dim[a]);
+    if (volumes > kMost)
+      return error(fmt::format("{}: dim: more than {} volumes; its header is wrong", file, kMost));
+  }
+  return volumes;
+}
+
 }  // namespace
 
 Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& options,
@@ -347,17 +361,8 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
   auto header = parse(head, file);
   if (!header) return header.error();
 
-  // axes beyond the third must have length one
-  if (header->dim[0] < 1 || header->dim[0] > 7)
-    return error(fmt::format("{}: dim[0] is {}, but 3 was expected", file, header->dim[0]));
-  for (std::size_t a = 4; a <= static_cast<std::size_t>(header->dim[0]); ++a)
-    if (header->dim[a] > 1)
-      return error(
-          fmt::format("{}: 3 axes expected, axis {} has {} entries; is this a time series?", file,
-                      a, header->dim[a]));
-  if (header->dim[0] < 3)
-    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is not a volume",
-                             file, header->dim[0]));
+  const auto volumes = volumes_in(*header, file);
+  if (!volumes) return volumes.error();
   auto count = voxel_count(file, header->dim[1], header->dim[2], header->dim[3]);
   if (!count) return count.error();
   SampleFormat format;
@@ -394,14 +399,17 @@ Result<Scan> read_nifti(const std::filesystem::path& given, const ReadOptions& o
     opened = open_unpacked(path, path == given);
   }
   if (!opened) return opened.error();
-  const std::uint64_t needed = *count * bytes_of(format.type);
+  const std::uint64_t each = *count * bytes_of(format.type), needed = each * *volumes;
   if (offset > opened->most || needed > opened->most - offset)
     return error(
         fmt::format("{}: the header needs {} bytes of voxels, but the file cannot hold them; it is "
                     "cut off or its header is wrong",
                     file, needed));
+  const auto volume = take_volume(*volumes, options, file, scan);
+  if (!volume) return volume.error();
   VoxelSink sink(*count);
   Status read = skip(*opened->source, offset);
+  opened->source = only_share(std::move(opened->source), share_of(*volume, *volumes, each));
   if (read) read = read_samples(*opened->source, format, *count, sink, progress);
   if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
   const bool sure = !scan.label_names.empty() && sink.all_are_among(scan.label_names);

@@ -14,8 +14,10 @@
 #include "burr/io/read/compare_frames.h"
 #include "burr/io/read/geometry.h"
 #include "burr/io/read/nrrd_header.h"
+#include "burr/io/read/nrrd_shape.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/samples.h"
+#include "burr/io/read/several_volumes.h"
 #include "burr/io/read/text.h"
 
 namespace burr::io {
@@ -24,118 +26,9 @@ namespace {
 using math::Mat3;
 using math::Vec3;
 
-bool sample_type(const std::string& name, SampleType& type) {
-  static const std::map<std::string, SampleType> known = {
-      {"signed char", SampleType::i8},
-      {"int8", SampleType::i8},
-      {"int8_t", SampleType::i8},
-      {"uchar", SampleType::u8},
-      {"unsigned char", SampleType::u8},
-      {"uint8", SampleType::u8},
-      {"uint8_t", SampleType::u8},
-      {"short", SampleType::i16},
-      {"short int", SampleType::i16},
-      {"signed short", SampleType::i16},
-      {"signed short int", SampleType::i16},
-      {"int16", SampleType::i16},
-      {"int16_t", SampleType::i16},
-      {"ushort", SampleType::u16},
-      {"unsigned short", SampleType::u16},
-      {"unsigned short int", SampleType::u16},
-      {"uint16", SampleType::u16},
-      {"uint16_t", SampleType::u16},
-      {"int", SampleType::i32},
-      {"signed int", SampleType::i32},
-      {"int32", SampleType::i32},
-      {"int32_t", SampleType::i32},
-      {"uint", SampleType::u32},
-      {"unsigned int", SampleType::u32},
-      {"uint32", SampleType::u32},
-      {"uint32_t", SampleType::u32},
-      {"longlong", SampleType::i64},
-      {"long long", SampleType::i64},
-      {"long long int", SampleType::i64},
-      {"signed long long", SampleType::i64},
-      {"signed long long int", SampleType::i64},
-      {"int64", SampleType::i64},
-      {"int64_t", SampleType::i64},
-      {"ulonglong", SampleType::u64},
-      {"unsigned long long", SampleType::u64},
-      {"unsigned long long int", SampleType::u64},
-      {"uint64", SampleType::u64},
-      {"uint64_t", SampleType::u64},
-      {"float", SampleType::f32},
-      {"double", SampleType::f64}};
-  const auto found = known.find(name);
-  if (found == known.end()) return false;
-  type = found->second;
-  return true;
-}
-
 std::map<std::string, double> unit_mm() {
   return {{"mm", 1},           {"cm", 10},       {"m", 1000},       {"um", 1e-3},
           {"\xC2\xB5m", 1e-3}, {"micron", 1e-3}, {"microns", 1e-3}, {"nm", 1e-6}};
-}
-
-struct Shape {
-  std::vector<std::int64_t> sizes;  // of the three axes kept
-  std::vector<std::size_t> axes;    // which of the file's axes they are
-  std::int64_t layers = 1;          // of a segmentation
-  bool layers_first = false;        // the layers of a voxel follow each other in the file
-};
-
-Result<Shape> shape_of(const NrrdHeader& header, const std::string& file, bool segmentation) {
-  const auto text = header.fields.find("sizes");
-  if (text == header.fields.end())
-    return error(fmt::format("{}: the field \"sizes\" is missing", file));
-  Shape shape;
-  std::vector<std::int64_t> all;
-  for (const std::string& word : words(text->second)) {
-    std::int64_t n = 0;
-    if (!to_number(word, n) || n < 1)
-      return error(
-          fmt::format("{}: sizes: \"{}\" is not a size of an axis", file, base::printable(word)));
-    all.push_back(n);
-  }
-  std::int64_t dimension = 0;
-  const auto stated = header.fields.find("dimension");
-  if (stated == header.fields.end() || !to_number(stated->second, dimension) ||
-      dimension != static_cast<std::int64_t>(all.size()))
-    return error(fmt::format("{}: dimension does not agree with {} sizes", file, all.size()));
-  const std::vector<std::string> kinds =
-      words(header.fields.count("kinds") != 0 ? header.fields.at("kinds") : "");
-
-  for (std::size_t a = 0; a < all.size(); ++a) {
-    const std::string kind = a < kinds.size() ? lower(kinds[a]) : "";
-    const bool no_space = kind == "list" || kind == "vector" || kind == "time" ||
-                          kind.find("color") != std::string::npos || kind == "3-vector";
-    if (all[a] == 1 && (all.size() > 3 || no_space)) continue;  // length one: ignored
-    if (no_space && segmentation && all.size() == 4 && (a == 0 || a == 3)) {
-      constexpr std::int64_t kMostLayers = 64;
-      if (all[a] > kMostLayers)
-        return error(
-            fmt::format("{}: its segments overlap in {} layers, and burr reads at most {}; merge "
-                        "them in 3D Slicer (Segmentations, Collapse segments) and save again",
-                        file, all[a], kMostLayers));
-      shape.layers = all[a];
-      shape.layers_first = a == 0;
-      continue;
-    }
-    if (no_space)
-      return error(
-          fmt::format("{}: axis {} is \"{}\" with {} entries, not an axis of space; burr reads one "
-                      "value per voxel",
-                      file, a, base::printable(kind), all[a]));
-    shape.sizes.push_back(all[a]);
-    shape.axes.push_back(a);
-  }
-  if (shape.sizes.size() > 3)
-    return error(fmt::format("{}: 3 axes expected, {} found; is this a time series?", file,
-                             shape.sizes.size()));
-  if (shape.sizes.size() < 3)
-    return error(fmt::format("{}: 3 axes expected, {} found; a single picture is not a volume",
-                             file, shape.sizes.size()));
-  return shape;
 }
 
 // lps = flip * file space
@@ -161,7 +54,7 @@ Mat3 lps_from_space(const std::string& space, const std::string& file, Scan& sca
 
 // The standard allows either space directions or spacings for an axis. Where a file has both, they
 // must agree.
-void compare_with_spacings(const std::vector<std::string>& spacings, const Shape& shape,
+void compare_with_spacings(const std::vector<std::string>& spacings, const NrrdShape& shape,
                            const Affine& directions, const std::string& file, Scan& scan) {
   Affine sized = directions;
   bool commas = false;
@@ -178,7 +71,23 @@ void compare_with_spacings(const std::vector<std::string>& spacings, const Shape
     compare_frames({directions, "space directions"}, {sized, "spacings"}, file, scan);
 }
 
-Affine affine_of(const NrrdHeader& header, const Shape& shape, const std::string& file,
+// stated: for how many axes there is one; unread: what the file has in its place.
+void ask_for_spacing(int stated, const std::string& unread, const std::string& file,
+                     bool check_scan, Scan& scan) {
+  if (stated > 0 && !check_scan) return;
+  if (stated > 0)
+    scan.ask(Ask::spacing, fmt::format("{}: states its voxel spacing for {} of 3 axes only (the "
+                                       "others are taken for 1 mm)",
+                                       file, stated));
+  else if (!unread.empty() && unread.find("nan") == std::string::npos)
+    scan.ask(Ask::spacing, fmt::format("{}: its voxel spacing \"{}\" cannot be read as numbers "
+                                       "(taken for 1 mm)",
+                                       file, base::printable(unread)));
+  else
+    no_spacing(file, check_scan, scan);
+}
+
+Affine affine_of(const NrrdHeader& header, const NrrdShape& shape, const std::string& file,
                  bool check_scan, Scan& scan) {
   const auto get = [&](const char* name) {
     const auto found = header.fields.find(name);
@@ -187,17 +96,7 @@ Affine affine_of(const NrrdHeader& header, const Shape& shape, const std::string
   const Mat3 flip = lps_from_space(get("space"), file, scan);
   Affine affine;
 
-  // one "(x,y,z)" or "none" for each axis
-  std::vector<std::string> moves;
-  for (std::string text = get("spacedirections"); !text.empty();) {
-    const std::string_view rest = trimmed(text);
-    if (rest.empty()) break;
-    const std::size_t end = rest.front() == '(' ? rest.find(')') : rest.find(' ');
-    const std::size_t n =
-        end == std::string_view::npos ? rest.size() : end + (rest.front() == '(' ? 1 : 0);
-    moves.emplace_back(rest.substr(0, n));
-    text = std::string(rest.substr(n));
-  }
+  const std::vector<std::string> moves = nrrd_directions(header);
   // some writers leave out axes without direction
   const bool only_space = moves.size() == 3;
   bool directed = !moves.empty(), commas = false;
@@ -213,23 +112,17 @@ Affine affine_of(const NrrdHeader& header, const Shape& shape, const std::string
   if (!directed) {
     affine.step.setIdentity();
     const std::vector<std::string> spacings = words(get("spacings"));
-    bool stated = false;
+    int stated = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       double step = 0;
       if (shape.axes[a] < spacings.size() && to_number(spacings[shape.axes[a]], step, commas) &&
           std::isfinite(step) && step != 0) {
         affine.step(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a)) = std::abs(step);
-        stated = true;
+        ++stated;
       }
     }
     const std::string unread = moves.empty() ? get("spacings") : get("spacedirections");
-    if (!stated && !unread.empty() && unread.find("nan") == std::string::npos)
-      scan.ask(Ask::spacing, fmt::format("{}: its voxel spacing \"{}\" cannot be read as numbers "
-                                         "(taken for 1 mm)",
-                                         file, base::printable(unread)));
-    else if (!stated)
-      scan.notices.emplace_back(
-          "The file states no voxel spacing: 1 mm is assumed; see `spacing_mm`.");
+    if (stated < 3) ask_for_spacing(stated, unread, file, check_scan, scan);
   }
   const std::vector<double> origin = numbers(get("spaceorigin"), 3, commas);
   if (commas)
@@ -271,14 +164,17 @@ Status skip_lines(ByteSource& source, std::int64_t lines) {
 }
 
 // numbers as text, separated by spaces and commas
-Status read_ascii(ByteSource& source, std::size_t count, VoxelSink& sink) {
+Status read_ascii(ByteSource& source, std::size_t count, const Share& share, VoxelSink& sink) {
   std::string word;
   std::vector<float> values;
+  std::uint64_t where = 0;  // in the period of the share
   const auto take = [&] {
     if (word.empty()) return true;
     double value = 0;
     const bool good = to_number(word, value);
-    values.push_back(static_cast<float>(value));
+    if (where >= share.from && where < share.from + share.length)
+      values.push_back(static_cast<float>(value));
+    where = (where + 1) % share.period;
     word.clear();
     return good;
   };
@@ -308,9 +204,10 @@ Status read_ascii(ByteSource& source, std::size_t count, VoxelSink& sink) {
 // The data: opened, decompressed and positioned at its first byte.
 Result<std::unique_ptr<ByteSource>> data_source(const NrrdHeader& header,
                                                 const std::filesystem::path& path,
-                                                const std::string& encoding, std::size_t bytes) {
+                                                const std::string& encoding, std::size_t bytes,
+                                                std::vector<std::string>& notices) {
   const std::string file = short_name(path);
-  auto files = nrrd_data_files(header, path);
+  auto files = nrrd_data_files(header, path, notices);
   if (!files) return files.error();
   auto lines = skip_field(header, "lineskip", file, 0);
   if (!lines) return lines.error();
@@ -327,9 +224,9 @@ Result<std::unique_ptr<ByteSource>> data_source(const NrrdHeader& header,
     packed = own->packed;
   } else {
     for (const auto& one : *files) {
-      std::error_code trouble;
-      size += std::filesystem::file_size(one, trouble);
-      if (trouble) return error(Trouble::io, fmt::format("{}: cannot be read", short_name(one)));
+      const auto there = open_file(one, 0, false);  // in an archive too
+      if (!there) return there.error();
+      size += there->size;
     }
   }
   const bool raw = encoding == "raw", gzip = encoding == "gzip" || encoding == "gz",
@@ -421,7 +318,7 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
   const bool segmentation = !scan.label_names.empty();
   if (segmentation) scan.format = "NRRD segmentation";
 
-  auto shape = shape_of(*header, file, segmentation);
+  auto shape = nrrd_shape(*header, file, segmentation);
   if (!shape) return shape.error();
   auto count = voxel_count(file, shape->sizes[0], shape->sizes[1], shape->sizes[2]);
   if (!count) return count.error();
@@ -430,7 +327,7 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
 
   SampleFormat format;
   const std::string type = lower(header->fields["type"]);
-  if (!sample_type(type, format.type))
+  if (!nrrd_type(type, format.type))
     return error(fmt::format("{}: type: burr does not read \"{}\"", file, base::printable(type)));
   const std::string endian = lower(header->fields["endian"]);
   format.big_endian = endian == "big";
@@ -455,11 +352,16 @@ Result<Scan> read_nrrd(const std::filesystem::path& path, const ReadOptions& opt
       named.layers[n] = scan.label_names[n].value - 1;
       scan.label_names[n].value = 1;
     }
-  const std::size_t samples = *count * layers;
-  auto source = data_source(*header, path, encoding, samples * bytes_of(format.type));
+  const std::size_t samples = *count * layers, width = bytes_of(format.type);
+  const auto volumes = static_cast<std::uint64_t>(shape->volumes),
+             before = static_cast<std::uint64_t>(shape->before_volumes);
+  const auto volume = take_volume(volumes, options, file, scan);
+  if (!volume) return volume.error();
+  auto source = data_source(*header, path, encoding, samples * volumes * width, scan.notices);
   if (!source) return source.error();
   VoxelSink sink(samples);
-  Status read = text ? read_ascii(**source, samples, sink)
+  if (!text) *source = only_share(std::move(*source), share_of(*volume, volumes, before * width));
+  Status read = text ? read_ascii(**source, samples, share_of(*volume, volumes, before), sink)
                      : read_samples(**source, format, samples, sink, progress);
   if (!read) return error(read.error().trouble, fmt::format("{}: {}", file, read.error().text));
   Status status = layers > 1 ? sink.finish_layers(scan, layers, shape->layers_first, named.layers)

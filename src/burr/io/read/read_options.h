@@ -10,8 +10,9 @@
 namespace burr::io {
 
 struct ReadOptions {
-  std::string series;                 // Series Instance UID, or its beginning, or the number shown
-                                      // by info ("#2"); empty: the best one
+  // Of a DICOM folder: Series Instance UID, or its beginning, or the number shown by info ("#2"), or an
+  // energy ("70 keV"); empty: the best one. Of a file of several volumes: a number ("2" or "#2").
+  std::string series;
   math::Vec3 spacing_mm = {0, 0, 0};  // all > 0: overrides the file
   // What the header says of its values is checked against them (calibration.h). false: as burr read
   // scans before 2026-11-26, for the recordings of that time.

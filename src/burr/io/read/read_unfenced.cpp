@@ -18,6 +18,7 @@
 #include "burr/io/read/archive.h"
 #include "burr/io/read/bytes.h"
 #include "burr/io/read/foreign.h"
+#include "burr/io/read/picture_stack.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/read/text.h"
 #include "burr/io/read/volume_folder.h"
@@ -88,6 +89,7 @@ Result<Scan> read_by_content(const std::filesystem::path& path, const ReadOption
         fmt::format("{}: is a zip archive inside another one; unpack it and give burr the "
                     "folder",
                     short_name(path)));
+  if (!pictures_among({path}).empty()) return read_picture(path, options, progress);
   if (const Foreign other = foreign(path, *head); !other.what.empty())
     return error(
         fmt::format("{}: is {}, no scan: {}", short_name(path), other.what, other.instead));
@@ -218,6 +220,12 @@ Result<Scan> read_folder(const std::filesystem::path& folder, const ReadOptions&
     const auto adf = adf_in(folder, inside);
     if (!adf) return adf.error();
     if (!adf->empty()) return read_adf(*adf, options, progress);
+  }
+  if (inside.volumes.empty() && !any_dicom(inside.others)) {
+    const auto pictures = pictures_among(inside.others);
+    // a picture or two among files of another kind are no stack
+    if (!pictures.empty() && 2 * pictures.size() >= inside.others.size())
+      return read_picture_stack(pictures, short_name(folder), options, progress);
   }
   if (inside.volumes.empty() || any_dicom(inside.others))
     return read_dicom_folder(folder, inside, options, progress);

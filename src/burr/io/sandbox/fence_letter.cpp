@@ -105,7 +105,7 @@ class Unpacker {
 };
 
 // both sides must agree about this, structs included
-std::string version() { return std::string("fence 7 of burr ") + base::version(); }
+std::string version() { return std::string("fence 8 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {
   switch (static_cast<Trouble>(number)) {
@@ -190,7 +190,7 @@ void unpack_scan(Unpacker& from, Scan& scan) {
               static_cast<std::size_t>(scan.series_taken) < std::max<std::size_t>(series, 1));
   for (std::size_t n = from.count(kMostQuestions); n > 0 && from.good(); --n) {
     const auto ask = static_cast<Ask>(from.get<std::uint8_t>());
-    from.demand(ask >= Ask::missing && ask <= Ask::doubt);
+    from.demand(ask >= Ask::missing && ask <= Ask::volume);
     scan.ask(ask, from.words());
   }
   for (std::size_t n = from.count(kMostLabels); n > 0 && from.good(); --n) {
