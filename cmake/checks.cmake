@@ -67,6 +67,13 @@ if(Python3_FOUND)
     add_test(NAME batch_slurm COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/batch/slurm_test.py $<TARGET_FILE:burr_program>)
     set_tests_properties(batch PROPERTIES TIMEOUT 900)
     set_tests_properties(batch_slurm PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300 LABELS long)
+    # each call of a recording fails in turn; the signals that ask to end
+    add_test(NAME record.failing_disk COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/record/failing_disk_test.py
+      $<TARGET_FILE:burr_program> ${CMAKE_C_COMPILER})
+    set_tests_properties(record.failing_disk PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
+    # the mouse in a real X server
+    add_test(NAME window.pointer COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/window/pointer_test.py $<TARGET_FILE:burr_program>)
+    set_tests_properties(window.pointer PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
     add_test(NAME surgeon.tells_apart COMMAND ${Python3_EXECUTABLE} ${checks}/surgeons.py $<TARGET_FILE:burr_program>
       ${CMAKE_BINARY_DIR}/surgeons)
     set_tests_properties(surgeon.tells_apart PROPERTIES TIMEOUT 900)

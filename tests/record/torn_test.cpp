@@ -68,7 +68,7 @@ TEST(Torn, AtEveryByteOfTheLastChunkItOpensWithAllTheRest) {
   auto reader = McapReader::open(folder / "s.mcap");
   ASSERT_TRUE(reader.ok());
   // the last chunk with ticks; after it come its indexes, the event, the account and the summary
-  const std::uint16_t ticks = (*reader)->channel_of(kTicks.name);
+  const std::uint16_t ticks = *(*reader)->channels_of(kTicks.name).begin();
   const mcap::ChunkAt* last = nullptr;
   for (const auto& chunk : (*reader)->chunks())
     if (chunk.index_offsets.contains(ticks)) last = &chunk;
@@ -126,7 +126,7 @@ TEST(Torn, InItsMiddleTheHoleIsNamedAndTheRestIsPlayedAndRepaired) {
     EXPECT_TRUE((*player)->holes().empty());
     auto reader = McapReader::open(folder / "s.mcap");
     ASSERT_TRUE(reader.ok());
-    const std::uint16_t ticks = (*reader)->channel_of(kTicks.name);
+    const std::uint16_t ticks = *(*reader)->channels_of(kTicks.name).begin();
     for (const auto& chunk : (*reader)->chunks())
       if (chunk.index_offsets.contains(ticks) && chunk.start_ns / 1'000'000 == 250)
         at = chunk.offset + chunk.length / 2;

@@ -98,7 +98,7 @@ inline void forget_tool(const std::string& from, const std::string& to) {
     ASSERT_TRUE(bone.ok());
     ASSERT_TRUE(writer.add_attachment(record::kBoneAttachment, record::kBoneMediaType, *bone).ok());
   }
-  const std::uint16_t ticks = (*reader)->channel_of(record::kTicks.name);
+  const std::uint16_t ticks = *(*reader)->channels_of(record::kTicks.name).begin();
   for (std::size_t c = 0; c < (*reader)->chunks().size(); ++c) {
     const auto chunk = (*reader)->read_chunk(c);
     ASSERT_TRUE(chunk.ok());

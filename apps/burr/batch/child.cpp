@@ -19,15 +19,14 @@
 namespace burr::app {
 namespace {
 
-// SIGTERM and SIGINT wait while it lives, so that none is missed between a look and a wait.
+// The signals that ask to end wait while it lives, so that none is missed between a look and a wait.
 class SignalsWait {
  public:
   SignalsWait() {
-    sigset_t both;
-    sigemptyset(&both);
-    sigaddset(&both, SIGTERM);
-    sigaddset(&both, SIGINT);
-    sigprocmask(SIG_BLOCK, &both, &before_);
+    sigset_t all;
+    sigemptyset(&all);
+    for (const int number : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&all, number);
+    sigprocmask(SIG_BLOCK, &all, &before_);
   }
   ~SignalsWait() { end(); }
   SignalsWait(const SignalsWait&) = delete;

@@ -1,7 +1,7 @@
 // apps/burr/batch/child.h - a row is done in a process of its own, forked from the batch: what a row leaves in memory touches no other
 // row, and one that crashes or runs out of memory does not take the shard with it.
 //
-// Thread: main, and no other thread may run. SIGTERM and Ctrl-C are passed on to the child, once.
+// Thread: main, and no other thread may run. SIGTERM, SIGHUP and Ctrl-C are passed on to the child, once.
 #pragma once
 
 #include <functional>

@@ -19,9 +19,9 @@
 #include "burr/render/picture.h"
 #include "burr/report/piece_words.h"
 #include "burr/sim/move_pieces.h"
+#include "burr/sim/path_check.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/motion.h"
-#include "burr/surgeon/path_check.h"
 #include "burr/tick/mirror_plane.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
@@ -120,6 +120,10 @@ device::ArmSettings arm_of(std::string_view grip) {
   return arm;
 }
 
+void add_to(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 // given: takes the findings; nullptr: it is printed.
 Status run(MillOptions options, CommandResult* given) {
   if (options.path_csv.empty() == options.motion_name.empty())
@@ -154,11 +158,6 @@ Status run(MillOptions options, CommandResult* given) {
   if (!path) return path.error();
   const bool own_motion = options.path_csv.empty() && !options.motion_name.starts_with(kStepMotion);
   const double seconds = own_motion ? options.seconds : path->duration();
-  std::vector<std::string> doubts;
-  if (!options.path_csv.empty())
-    doubts = surgeon::doubts(*path, *opened->bone, 0.5e-3 * options.burr_mm(), options.path_csv);
-  print_notices(doubts);
-
   if (carry) carry_on(*path, *carry);
   if (!orders.empty() || carry) rest_at_end(*path);
 
@@ -175,14 +174,20 @@ Status run(MillOptions options, CommandResult* given) {
     if (!plane) return error(plane.error().trouble, "--mirror: " + plane.error().text);
     mirror = *plane;
   }
+  const sim::FollowedPath followed{
+      *path, options.path_csv.empty() ? "--motion " + options.motion_name : options.path_csv};
   auto made = workshop::begin_by_itself(std::move(opened->bone), std::move(*path), settings,
                                         progress(), arm_of(options.arm));
   if (!made) return made.error();
   sim::Session& session = **made;
   if (mirror.on()) session.command(tick::command_for(mirror));
-  if (const Status joined = add_second_hand(options.second, options.tool, seconds, session);
+  std::optional<sim::FollowedPath> second;
+  if (const Status joined = add_second_hand(options.second, options.tool, seconds, session, second);
       !joined)
     return joined;
+  std::vector<std::string> doubts = sim::doubts_before(session, followed);
+  if (second) add_to(doubts, sim::doubts_before(session, *second));
+  print_notices(doubts);
 
   Recording recording;
   if (!options.record.empty()) {
@@ -197,6 +202,8 @@ Status run(MillOptions options, CommandResult* given) {
     if (!started) return started;
   }
   session.run(seconds, progress());
+  add_to(doubts, sim::doubts_after(session, followed));
+  if (second) add_to(doubts, sim::doubts_after(session, *second));
   edit::PieceStore store;
   // before a piece is put into the plane
   const std::optional<CutLeft> left = left_of(cut, session.bone());

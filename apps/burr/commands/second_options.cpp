@@ -54,7 +54,7 @@ void add_second_options(CLI::App& command, SecondOptions& options) {
 }
 
 Status add_second_hand(const SecondOptions& options, const ToolOptions& rack, double seconds,
-                       sim::Session& session) {
+                       sim::Session& session, std::optional<sim::FollowedPath>& followed) {
   if (!options.wanted()) {
     if (rack.second.empty()) return fine();
     return error(Trouble::usage, "--second-tool " + rack.second +
@@ -68,6 +68,9 @@ Status add_second_hand(const SecondOptions& options, const ToolOptions& rack, do
   settings.force = session.settings().servo.force;
   auto path = path_of(options, settings.radius, seconds, session.bone());
   if (!path) return path.error();
+  followed = {*path,
+              options.path_csv.empty() ? "--second-motion " + options.motion : options.path_csv,
+              true};
   return session.add_second_hand(
       std::make_unique<device::SimulatedHand>(std::move(*path), device::ArmSettings{}), settings);
 }

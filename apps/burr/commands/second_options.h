@@ -2,10 +2,12 @@
 // part.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/sim/path_check.h"
 #include "burr/sim/session.h"
 #include "shared/tool_options.h"
 
@@ -21,8 +23,9 @@ struct SecondOptions {
 // --second-path, --second-motion, --second-at, --second-into
 void add_second_options(CLI::App& command, SecondOptions& options);
 // Call it before set_recorder(). rack: names the tool; none: a suction tube's ball. seconds: of a
-// motion. Error: for the user.
+// motion. followed: gets its path. Error: for the user.
 [[nodiscard]] Status add_second_hand(const SecondOptions& options, const ToolOptions& rack,
-                                     double seconds, sim::Session& session);
+                                     double seconds, sim::Session& session,
+                                     std::optional<sim::FollowedPath>& followed);
 
 }  // namespace burr::app

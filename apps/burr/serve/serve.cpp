@@ -153,7 +153,7 @@ Status run(const Options& options) {
         guard.tls ? "https" : "http", guard.hosts.front(), guard.station_token);
   fmt::print("Ctrl-C ends.\n");
   std::fflush(stdout);
-  (*server)->stop_at_signals({SIGINT, SIGTERM});
+  (*server)->stop_at_signals({SIGINT, SIGTERM, SIGHUP});
   (*server)->run();
   return fine();
 }

@@ -1,8 +1,13 @@
 #include "shared/interrupt.h"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 
@@ -21,7 +26,25 @@ std::int64_t now() noexcept {
   return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
 }
 
+// A terminal that was closed refuses every word, and a word refused would end the work before its end.
+void leave_closed_terminal() noexcept {
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  for (int file = STDIN_FILENO; nowhere >= 0 && file <= STDERR_FILENO; ++file) {
+    struct stat about = {};
+    pollfd end = {.fd = file, .events = 0, .revents = 0};
+    if (fstat(file, &about) == 0 && S_ISCHR(about.st_mode) && poll(&end, 1, 0) > 0 &&
+        (end.revents & (POLLHUP | POLLERR)) != 0)
+      dup2(nowhere, file);
+  }
+  if (nowhere > STDERR_FILENO) close(nowhere);
+}
+
 void on_first(int number) {
+  if (number == SIGHUP) {
+    const int before = errno;
+    leave_closed_terminal();
+    errno = before;
+  }
   if (asked_by != 0) return;
   asked_at = now();
   asked_by = number;
@@ -45,13 +68,17 @@ bool interrupted() noexcept {
   return !in_time || now() - asked_at > left_then;
 }
 
-int stopped_code() noexcept { return 128 + (asked_by == SIGTERM ? SIGTERM : SIGINT); }
+int stopped_code() noexcept { return 128 + (asked_by == 0 ? SIGINT : asked_by.load()); }
 
 void catch_interrupts(bool every_one) noexcept {
   struct sigaction action = {};
   action.sa_handler = every_one ? on_first : on_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // a terminal that closes, a connection that breaks; what `nohup` started is to go on
+  struct sigaction hangup = {};
+  if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 void grant_time(double takes, double left) noexcept {

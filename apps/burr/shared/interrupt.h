@@ -1,16 +1,16 @@
-// apps/burr/shared/interrupt.h - Ctrl-C and SIGTERM.
+// apps/burr/shared/interrupt.h - Ctrl-C, SIGTERM, and SIGHUP of a terminal that closes.
 #pragma once
 
 namespace burr::app {
 
-// True after Ctrl-C or SIGTERM, once catch_interrupts() has been called; long work then ends cleanly and saves what it has.
+// True after one of these signals, once catch_interrupts() has been called; long work then ends cleanly and saves what it has.
 // Any thread.
 [[nodiscard]] bool interrupted() noexcept;
 
 // The same without the time that grant_time() gives: whoever does one piece of work after the other begins no further one.
 [[nodiscard]] bool asked_to_end() noexcept;
 
-// The exit code of work that was stopped: 143 after SIGTERM, 130 after Ctrl-C, or where the user closed what was open.
+// The exit code of work that was stopped: 143 after SIGTERM, 129 after SIGHUP, 130 after Ctrl-C, or where the user closed what was open.
 [[nodiscard]] int stopped_code() noexcept;
 
 // From now on the first signal asks long work to end, and the second one ends the program at once. Call it at the start of main.

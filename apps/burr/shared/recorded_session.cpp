@@ -35,6 +35,7 @@ Status Recording::start(sim::Session& session, const std::string& file,
       workshop::record(session, file, about, [this](const Error& problem) { tell(problem); });
   if (begun) {
     recorder_ = std::move(*begun);
+    print_notices(recorder_->notices());
     diary_.emplace(*recorder_, rate_hz_);
     return fine();
   }
@@ -55,6 +56,7 @@ void Recording::tell(const Error& problem) {
   {
     const std::lock_guard lock(mutex_);
     trouble_ = problem;
+    if (ending_) return;  // finish() says it
   }
   fmt::print(stderr, "{}burr: {}; the session continues without recording\n",
              isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", in_options(problem).text);
@@ -74,6 +76,10 @@ Status Recording::finish(sim::Session& session, bool stopped) {
                 stopped ? record::Ending::broke_off : record::Ending::time_up);
   }
   if (recorder_) {
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+    }
     const auto done = recorder_->finish(stopped);
     if (done && !done->whole())
       return error(
@@ -88,7 +94,14 @@ Status Recording::finish(sim::Session& session, bool stopped) {
   if (!trouble_) return fine();
   std::error_code nobody_asks;
   const bool there = std::filesystem::exists(file_, nobody_asks);
-  const double kept = recorder_ ? static_cast<double>(recorder_->written_ticks()) / rate_hz_ : 0;
+  const std::uint64_t ticks = recorder_ ? recorder_->written_ticks() : 0;
+  const double kept = static_cast<double>(ticks) / rate_hz_;
+  if (there && ticks > 0 && ticks == session.outcome().ticks)
+    return error(trouble_->trouble,
+                 fmt::format("{}; the session ended normally, and all its {:.3f} s can be read in "
+                             "the recording, but perhaps not after a power cut: copy it to another "
+                             "disk, or repair it",
+                             trouble_->text, kept));
   return error(trouble_->trouble,
                fmt::format("{}; the session ended normally, but its recording is incomplete: {}",
                            trouble_->text,

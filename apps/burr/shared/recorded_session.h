@@ -61,7 +61,7 @@ class Recording {
   void tell(const Error& problem);
 
   std::string file_, scan_list_;
-  bool stopped_ = false;
+  bool stopped_ = false, ending_ = false;
   record::Identity identity_;
   std::unique_ptr<record::Recorder> recorder_;
   std::optional<record::Diary> diary_;

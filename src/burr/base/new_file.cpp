@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
+#include "burr/base/disk_words.h"
 #include "burr/base/inputs.h"
 
 namespace burr::base {
@@ -31,7 +31,7 @@ std::string reason(int number) {
     case ENOTDIR:
       return "the folder does not exist; create it first";
     default:
-      return std::strerror(number);
+      return disk_trouble(number);
   }
 }
 
@@ -129,7 +129,7 @@ Status NewFile::put_in_place() {
   BURR_CHECK(file_ >= 0);
   flush();
   // some file systems report only now that the disk is full
-  if (trouble_ == 0 && ::fsync(file_) != 0 && errno != EINVAL) trouble_ = errno;
+  if (trouble_ == 0 && ::fsync(file_) != 0 && !not_offered(errno)) trouble_ = errno;
   if (trouble_ != 0) return failed("written");
   if (::rename(beside_.c_str(), place_.c_str()) != 0) {
     trouble_ = errno;

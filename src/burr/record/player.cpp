@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "burr/record/assumed_tool.h"
@@ -42,18 +43,28 @@ Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
   player->reader_ = std::move(*reader);
   player->notices_ = player->reader_->notices();
   const McapReader& file = *player->reader_;
-  player->tick_channel_ = file.channel_of(kTicks.name);
-  player->command_channel_ = file.channel_of(kCommands.name);
-  player->event_channel_ = file.channel_of(kEvents.name);
-  player->change_channel_ = file.channel_of(kChanges.name);
-  player->keyframe_channel_ = file.channel_of(kKeyframes.name);
-  player->view_channel_ = file.channel_of(kViews.name);
-  player->course_channel_ = file.channel_of(kCourse.name);
-  player->second_channel_ = file.channel_of(kSecond.name);
+  player->tick_channels_ = file.channels_of(kTicks.name);
+  player->command_channels_ = file.channels_of(kCommands.name);
+  player->event_channels_ = file.channels_of(kEvents.name);
+  player->change_channels_ = file.channels_of(kChanges.name);
+  player->keyframe_channels_ = file.channels_of(kKeyframes.name);
+  player->view_channels_ = file.channels_of(kViews.name);
+  player->course_channels_ = file.channels_of(kCourse.name);
+  player->second_channels_ = file.channels_of(kSecond.name);
   if (Status read = player->read_session(); !read.ok()) return read.error();
-  player->step_chunks_ = player->chunks_with(player->tick_channel_, player->command_channel_);
-  player->change_chunks_ = player->chunks_with(player->change_channel_);
-  player->keyframe_chunks_ = player->chunks_with(player->keyframe_channel_);
+  Channels steps = player->tick_channels_;
+  steps.insert(player->command_channels_.begin(), player->command_channels_.end());
+  steps.insert(player->second_channels_.begin(), player->second_channels_.end());
+  player->step_chunks_ = player->chunks_with(steps);
+  player->change_chunks_ = player->chunks_with(player->change_channels_);
+  // each change follows from the one before: as they were written
+  std::sort(player->change_chunks_.begin(), player->change_chunks_.end());
+  for (const std::size_t c : player->step_chunks_) {
+    const std::uint64_t before = player->step_ends_.empty() ? 0 : player->step_ends_.back();
+    player->step_ends_.push_back(
+        std::max(before, player->tick_of_ns(player->reader_->chunks()[c].end_ns)));
+  }
+  player->find_keyframes();
   player->read_events();
   player->read_course();
   player->find_ends();
@@ -61,14 +72,17 @@ Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
   return player;
 }
 
-std::vector<std::size_t> Player::chunks_with(std::uint16_t channel,
-                                             std::uint16_t or_channel) const {
+std::vector<std::size_t> Player::chunks_with(const Channels& channels) const {
+  const auto& chunks = reader_->chunks();
   std::vector<std::size_t> found;
-  for (std::size_t c = 0; c < reader_->chunks().size(); ++c) {
-    const auto& has = reader_->chunks()[c].index_offsets;
-    if ((channel != 0 && has.contains(channel)) || (or_channel != 0 && has.contains(or_channel)))
+  for (std::size_t c = 0; c < chunks.size(); ++c)
+    if (std::any_of(channels.begin(), channels.end(), [&](std::uint16_t channel) {
+          return chunks[c].index_offsets.contains(channel);
+        }))
       found.push_back(c);
-  }
+  std::stable_sort(found.begin(), found.end(), [&chunks](std::size_t a, std::size_t b) {
+    return chunks[a].start_ns < chunks[b].start_ns;
+  });
   return found;
 }
 
@@ -78,12 +92,12 @@ void Player::notice(const std::string& sentence) {
 }
 
 Status Player::read_session() {
-  const std::uint16_t channel = reader_->channel_of(kSession.name);
-  for (const std::size_t c : chunks_with(channel)) {
+  const Channels channels = reader_->channels_of(kSession.name);
+  for (const std::size_t c : chunks_with(channels)) {
     const auto chunk = reader_->read_chunk(c);
     if (!chunk) return chunk.error();
     for (const McapMessage& message : chunk->messages) {
-      if (message.channel != channel) continue;
+      if (!channels.contains(message.channel)) continue;
       auto info = session_from_json(as_text(message.data), path_);
       if (!info) return info.error();
       info_ = std::move(*info);
@@ -100,14 +114,14 @@ Status Player::read_session() {
 }
 
 void Player::read_events() {
-  for (const std::size_t c : chunks_with(event_channel_)) {
+  for (const std::size_t c : chunks_with(event_channels_)) {
     const auto chunk = reader_->read_chunk(c);
     if (!chunk) {
       notice(chunk.error().text);
       continue;
     }
     for (const McapMessage& message : chunk->messages) {
-      if (message.channel != event_channel_) continue;
+      if (!event_channels_.contains(message.channel)) continue;
       const auto event = nlohmann::json::parse(as_text(message.data), nullptr, false);
       if (!event.is_object()) continue;
       stopped_ = stopped_ || event.value("event", nlohmann::json()) == "stopped";
@@ -142,20 +156,26 @@ void Player::find_ends() {
   first_tick_ = step.row.tick;
   tool_is_recorded_ = first.rows_.front().tool.radius > 0;
   // each chunk is read once: there may be many with commands alone
-  std::vector<tick::TickRow> rows;
-  for (std::size_t c = step_chunks_.size(); c-- > 0 && rows.empty();) {
+  std::optional<std::uint64_t> last;
+  for (std::size_t c = step_chunks_.size(); c-- > 0 && !(last && step_ends_[c] <= *last);) {
     const auto chunk = reader_->read_chunk(step_chunks_[c]);
     if (!chunk) {
       notice(chunk.error().text);
       continue;
     }
-    for (const McapMessage& message : chunk->messages)
-      if (message.channel == tick_channel_) static_cast<void>(decode_ticks(message.data, rows));
+    std::uint64_t newest = 0;
+    std::vector<tick::TickRow> rows;
+    for (const McapMessage& message : chunk->messages) {
+      if (!tick_channels_.contains(message.channel) || message.time_ns < newest) continue;
+      newest = message.time_ns;
+      static_cast<void>(decode_ticks(message.data, rows));
+    }
+    if (!rows.empty()) last = std::max(last.value_or(0), rows.back().tick);
   }
   // a damaged number may be the largest there is, or smaller than the first
   constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max() - 1;
   first_tick_ = std::min(first_tick_, kLargest);
-  end_tick_ = std::max(first_tick_, rows.empty() ? 0 : std::min(rows.back().tick, kLargest)) + 1;
+  end_tick_ = std::max(first_tick_, std::min(last.value_or(0), kLargest)) + 1;
 }
 
 void Player::find_holes() {
@@ -190,12 +210,13 @@ void Player::find_holes() {
 
 void Player::read_assumed_tools() {
   std::vector<tick::CommandRow> commands;
-  for (const std::size_t c : chunks_with(command_channel_)) {
+  for (const std::size_t c : chunks_with(command_channels_)) {
     const auto chunk = reader_->read_chunk(c);
     if (!chunk) continue;  // the cursors say so
     tick::CommandRow row;
     for (const McapMessage& message : chunk->messages)
-      if (message.channel == command_channel_ && command_from_json(as_text(message.data), row))
+      if (command_channels_.contains(message.channel) &&
+          command_from_json(as_text(message.data), row))
         commands.push_back(row);
   }
   std::stable_sort(commands.begin(), commands.end(),
@@ -225,41 +246,66 @@ bool StepCursor::take_second(ByteSpan message) {
   return true;
 }
 
+// reach: up to which tick the rows go
+void StepCursor::take(const McapMessage& message, std::uint64_t& reach) {
+  const Player& player = *player_;
+  const auto is_wrong = [&](const char* what) {
+    player_->notice(fmt::format("{}: a {} near {:.3f} s is not valid and was ignored", player.path_,
+                                what, static_cast<double>(message.time_ns) * 1e-9));
+  };
+  if (player.tick_channels_.contains(message.channel)) {
+    if (!decode_ticks(message.data, rows_)) is_wrong("message of ticks");
+    // one damaged number must not make this cursor read the whole file
+    const auto second = static_cast<std::uint64_t>(player.info_.rate_hz);
+    if (!rows_.empty())
+      reach =
+          std::max(reach, std::min(rows_.back().tick, player.tick_of_ns(message.time_ns) + second));
+  }
+  if (player.second_channels_.contains(message.channel) && !take_second(message.data))
+    is_wrong("message of the second hand");
+  if (!player.command_channels_.contains(message.channel)) return;
+  tick::CommandRow command;
+  if (command_from_json(as_text(message.data), command))
+    commands_.push_back(command);
+  else
+    player_->notice(
+        fmt::format("{}: a command near {:.3f} s is unknown and was ignored; it was perhaps "
+                    "recorded by a newer burr",
+                    player.path_, static_cast<double>(message.time_ns) * 1e-9));
+}
+
 bool StepCursor::fill() {
   rows_.clear();
   row_ = 0;
   const Player& player = *player_;
-  while (chunk_ < player.step_chunks_.size()) {
-    const auto chunk = player.reader_->read_chunk(player.step_chunks_[chunk_++]);
+  // other writers put what belongs to one tick into several chunks: all that begin before the rows end
+  std::uint64_t reach = 0;
+  std::vector<std::pair<std::size_t, tick::CommandRow>> commands;  // with their chunk
+  while (chunk_ < player.step_chunks_.size() &&
+         (rows_.empty() || player.start_tick(player.step_chunks_[chunk_]) <= reach)) {
+    const std::size_t at = player.step_chunks_[chunk_++], had = commands_.size();
+    const auto chunk = player.reader_->read_chunk(at);
     if (!chunk) {
       player_->notice(chunk.error().text);
       continue;
     }
-    for (const McapMessage& message : chunk->messages) {
-      tick::CommandRow command;
-      if (message.channel == player.tick_channel_ && !decode_ticks(message.data, rows_))
-        player_->notice(
-            fmt::format("{}: a message of ticks near {:.3f} s is not valid and was ignored",
-                        player.path_, static_cast<double>(message.time_ns) * 1e-9));
-      if (message.channel == player.second_channel_ && player.second_channel_ != 0 &&
-          !take_second(message.data))
-        player_->notice(
-            fmt::format("{}: a message of the second hand near {:.3f} s is not valid and was "
-                        "ignored",
-                        player.path_, static_cast<double>(message.time_ns) * 1e-9));
-      if (message.channel == player.command_channel_) {
-        if (command_from_json(as_text(message.data), command))
-          commands_.push_back(command);
-        else
-          player_->notice(
-              fmt::format("{}: a command near {:.3f} s is unknown and was ignored; it was perhaps "
-                          "recorded by a newer burr",
-                          player.path_, static_cast<double>(message.time_ns) * 1e-9));
-      }
-    }
-    if (!rows_.empty()) return true;
+    for (const McapMessage& message : chunk->messages) take(message, reach);
+    for (std::size_t n = had; n < commands_.size(); ++n) commands.emplace_back(at, commands_[n]);
+    commands_.erase(commands_.begin() + static_cast<std::ptrdiff_t>(had), commands_.end());
   }
-  return false;
+  // of one tick in the order of the file
+  std::stable_sort(commands.begin(), commands.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [at, command] : commands) commands_.push_back(command);
+  const auto earlier = [](const auto& a, const auto& b) { return a.tick < b.tick; };
+  const auto put_in_order = [&earlier](auto& rows) {
+    if (!std::is_sorted(rows.begin(), rows.end(), earlier))
+      std::stable_sort(rows.begin(), rows.end(), earlier);
+  };
+  put_in_order(rows_);
+  put_in_order(commands_);
+  put_in_order(second_);
+  return !rows_.empty();
 }
 
 bool StepCursor::next(Step& step) {
@@ -299,7 +345,7 @@ bool BrickCursor::next(tick::BrickRow& row) {
     }
     Bricks bricks;
     for (const McapMessage& message : chunk->messages) {
-      if (message.channel != player_->change_channel_) continue;
+      if (!player_->change_channels_.contains(message.channel)) continue;
       if (!decode_bricks(message.data, bricks)) {
         player_->notice(player_->path_ +
                         ": a message of changed bricks is not valid and was ignored");
@@ -338,13 +384,11 @@ std::uint64_t Player::start_tick(std::size_t chunk) const {
   return tick_of_ns(reader_->chunks()[chunk].start_ns);
 }
 
-// The index in step_chunks_ of the chunk that holds the tick, or of the one before.
+// The index in step_chunks_ of a chunk from which on a cursor meets the tick.
 std::size_t Player::step_chunk_before(std::uint64_t tick) const {
-  const auto after =
-      std::partition_point(step_chunks_.begin(), step_chunks_.end(),
-                           [&](std::size_t chunk) { return start_tick(chunk) <= tick; });
-  const auto count = static_cast<std::size_t>(after - step_chunks_.begin());
-  return count == 0 ? 0 : count - 1;
+  const auto reaches = std::lower_bound(step_ends_.begin(), step_ends_.end(), tick);
+  const auto count = static_cast<std::size_t>(reaches - step_ends_.begin());
+  return count == 0 ? 0 : count - 1;  // the rows of a message go on after its time
 }
 
 Result<tick::TickRow> Player::tick_at(double t_s) {

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -54,6 +55,7 @@ class StepCursor {
   StepCursor(Player& player, std::size_t chunk, std::uint64_t first_tick)
       : player_(&player), chunk_(chunk), first_tick_(first_tick) {}
   bool fill();
+  void take(const McapMessage& message, std::uint64_t& reach);
   [[nodiscard]] bool take_second(ByteSpan message);
   Player* player_;
   std::size_t chunk_;  // index into step_chunks_
@@ -113,7 +115,7 @@ class Player {
 
   // ---- what the user saw and did (player_notes.cpp)
   // False: an older recording, which cannot say how the session ended.
-  [[nodiscard]] bool has_course() const { return course_channel_ != 0; }
+  [[nodiscard]] bool has_course() const { return !course_channels_.empty(); }
   // In order of time. Empty: nothing happened, an older recording, or damaged; notices() then says so.
   [[nodiscard]] const std::vector<CourseEvent>& course() const { return course_; }
   // none: killed, still being recorded, or an older recording
@@ -161,8 +163,8 @@ class Player {
   void read_course();
   void find_holes();
   void find_ends();
-  [[nodiscard]] std::vector<std::size_t> chunks_with(std::uint16_t channel,
-                                                     std::uint16_t or_channel = 0) const;
+  void find_keyframes();
+  [[nodiscard]] std::vector<std::size_t> chunks_with(const std::set<std::uint16_t>& channels) const;
   void notice(const std::string& sentence);
   void read_assumed_tools();
   [[nodiscard]] tool::ToolState assumed_tool(std::uint64_t tick);
@@ -179,12 +181,20 @@ class Player {
   std::unique_ptr<McapReader> reader_;
   SessionInfo info_;
   std::vector<std::string> notices_;
-  std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
-                keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0, second_channel_ = 0;
+  using Channels = std::set<std::uint16_t>;  // of a topic; empty: the file does not have it
+  Channels tick_channels_, command_channels_, event_channels_, change_channels_, keyframe_channels_,
+      view_channels_, course_channels_, second_channels_;
   std::vector<CourseEvent> course_;
-  // which chunks hold what; in the order of the file, and so of time
+  // which chunks hold what; in the order of the time at which they begin, which is burr's order in the file
   std::vector<std::size_t> step_chunks_;  // ticks or commands
-  std::vector<std::size_t> change_chunks_, keyframe_chunks_;
+  std::vector<std::uint64_t>
+      step_ends_;  // tick to which messages of these and all chunks before reach
+  std::vector<std::size_t> change_chunks_;
+  struct Keyframe {
+    std::size_t chunk = 0;  // with a part of it
+    std::uint64_t time_ns = 0;
+  };
+  std::vector<Keyframe> keyframes_;
   std::uint64_t first_tick_ = 0, end_tick_ = 0;
   bool stopped_ = false;
   std::vector<Hole> holes_;

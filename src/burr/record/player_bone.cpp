@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,10 +19,11 @@ using volume::BrickIndex;
 
 Error Player::broken_before(std::uint64_t tick) const {
   std::string again = "and there is no later keyframe";
-  for (const std::size_t c : keyframe_chunks_) {
-    if (start_tick(c) <= tick) continue;
+  for (const Keyframe& keyframe : keyframes_) {
+    const std::uint64_t at = tick_of_ns(keyframe.time_ns);
+    if (at <= tick) continue;
     again = fmt::format("and the next keyframe is at {:.3f} s",
-                        static_cast<double>(start_tick(c)) / info_.rate_hz);
+                        static_cast<double>(at) / info_.rate_hz);
     break;
   }
   return error(
@@ -30,20 +32,38 @@ Error Player::broken_before(std::uint64_t tick) const {
                   path_, static_cast<double>(tick) / info_.rate_hz, again));
 }
 
+// burr gives each part a chunk of its own; other writers put it among other messages.
+void Player::find_keyframes() {
+  for (const std::size_t c : chunks_with(keyframe_channels_)) {
+    const mcap::ChunkAt& at = reader_->chunks()[c];
+    if (at.start_ns == at.end_ns) {
+      keyframes_.push_back({c, at.start_ns});
+      continue;
+    }
+    const auto chunk = reader_->read_chunk(c);
+    if (!chunk) continue;  // whoever needs what is in it says so
+    std::set<std::uint64_t> times;
+    for (const McapMessage& message : chunk->messages)
+      if (keyframe_channels_.contains(message.channel)) times.insert(message.time_ns);
+    for (const std::uint64_t time : times) keyframes_.push_back({c, time});
+  }
+  std::stable_sort(keyframes_.begin(), keyframes_.end(),
+                   [](const Keyframe& a, const Keyframe& b) { return a.time_ns < b.time_ns; });
+}
+
 // Loads the newest complete keyframe at or before the tick. False: there is none.
 bool Player::load_keyframe(std::uint64_t tick) {
   const auto& chunks = reader_->chunks();
   std::optional<std::uint64_t> not_after;  // keyframes found incomplete, and all later ones
   for (;;) {
-    // its chunks all have the same time
+    // its parts all have the same time
     std::vector<std::size_t> parts;
     std::optional<std::uint64_t> time;
-    for (auto c = keyframe_chunks_.rbegin(); c != keyframe_chunks_.rend(); ++c) {
-      const std::uint64_t start = chunks[*c].start_ns;
-      if (start_tick(*c) > tick || (not_after && start >= *not_after)) continue;
-      if (time && start != *time) break;
-      time = start;
-      parts.push_back(*c);
+    for (auto k = keyframes_.rbegin(); k != keyframes_.rend(); ++k) {
+      if (tick_of_ns(k->time_ns) > tick || (not_after && k->time_ns >= *not_after)) continue;
+      if (time && k->time_ns != *time) break;
+      time = k->time_ns;
+      parts.push_back(k->chunk);
     }
     if (!time) return false;
 
@@ -60,7 +80,7 @@ bool Player::load_keyframe(std::uint64_t tick) {
       }
       Bricks bricks;
       for (const McapMessage& message : chunk->messages) {
-        if (message.channel != keyframe_channel_ || message.time_ns != *time) continue;
+        if (!keyframe_channels_.contains(message.channel) || message.time_ns != *time) continue;
         good = good && decode_bricks(message.data, bricks);
         if (!good) break;
         wanted = bricks.parts;
@@ -77,9 +97,8 @@ bool Player::load_keyframe(std::uint64_t tick) {
       state_tick_ = tick_of_ns(*time);
       place_ = {};
       place_.next_batch = batch + 1;
-      const auto from =
-          std::partition_point(change_chunks_.begin(), change_chunks_.end(),
-                               [&](std::size_t c) { return chunks[c].end_ns < *time; });
+      const auto from = std::find_if(change_chunks_.begin(), change_chunks_.end(),
+                                     [&](std::size_t c) { return chunks[c].end_ns >= *time; });
       place_.chunk = static_cast<std::size_t>(from - change_chunks_.begin());
       state_good_ = true;
       return true;
@@ -99,7 +118,7 @@ Status Player::advance(std::uint64_t tick) {
     }
     for (; place_.message < chunk->messages.size(); ++place_.message, place_.row = 0) {
       const McapMessage& message = chunk->messages[place_.message];
-      if (message.channel != change_channel_) continue;
+      if (!change_channels_.contains(message.channel)) continue;
       Bricks bricks;
       if (!decode_bricks(message.data, bricks)) {
         notice(path_ + ": a message of changed bricks is not valid");
@@ -179,8 +198,10 @@ Status Player::bone_at(double t_s, volume::Bone& bone) {
   // forward from the present state, unless a keyframe is nearer
   bool restart = !state_good_ || tick < state_tick_;
   if (!restart)
-    for (const std::size_t c : keyframe_chunks_)
-      restart = restart || (start_tick(c) <= tick && start_tick(c) > state_tick_);
+    for (const Keyframe& keyframe : keyframes_) {
+      const std::uint64_t at = tick_of_ns(keyframe.time_ns);
+      restart = restart || (at <= tick && at > state_tick_);
+    }
   if (restart) {
     state_good_ = false;
     if (!load_keyframe(tick)) {

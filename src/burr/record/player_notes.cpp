@@ -9,11 +9,11 @@ namespace burr::record {
 
 void Player::read_course() {
   std::size_t unknown = 0;
-  for (const std::size_t c : chunks_with(course_channel_)) {
+  for (const std::size_t c : chunks_with(course_channels_)) {
     const auto chunk = reader_->read_chunk(c);
     if (!chunk) continue;  // find_holes() says so
     for (const McapMessage& message : chunk->messages) {
-      if (message.channel != course_channel_) continue;
+      if (!course_channels_.contains(message.channel)) continue;
       CourseEvent event;
       if (course_from_json(as_text(message.data), event))
         course_.push_back(std::move(event));
@@ -40,11 +40,11 @@ std::optional<Ending> Player::ending() const {
 std::vector<View> Player::views() {
   std::vector<View> all;
   std::size_t unknown = 0;
-  for (const std::size_t c : chunks_with(view_channel_)) {
+  for (const std::size_t c : chunks_with(view_channels_)) {
     const auto chunk = reader_->read_chunk(c);
     if (!chunk) continue;  // find_holes() has said so
     for (const McapMessage& message : chunk->messages) {
-      if (message.channel != view_channel_) continue;
+      if (!view_channels_.contains(message.channel)) continue;
       View view;
       if (view_from_json(as_text(message.data), view))
         all.push_back(view);
@@ -64,7 +64,7 @@ std::string Player::lacks() const {
   const auto add = [&list](bool missing, const char* what) {
     if (missing) list += (list.empty() ? "" : ", ") + std::string(what);
   };
-  add(view_channel_ == 0, "what the user saw");
+  add(view_channels_.empty(), "what the user saw");
   add(!has_course(), "steps, help, warnings and how the session ended");
   add(!info_.identity, "mode, learner and attempt");
   add(!info_.shaft, "the size of the shaft");

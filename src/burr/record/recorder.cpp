@@ -46,7 +46,10 @@ class Recorder::WriterThread {
  public:
   WriterThread(Recorder& recorder, std::unique_ptr<Pen> pen,
                std::function<void(const Error&)> on_trouble)
-      : recorder_(recorder), pen_(std::move(pen)), on_trouble_(std::move(on_trouble)) {
+      : recorder_(recorder),
+        pen_(std::move(pen)),
+        on_trouble_(std::move(on_trouble)),
+        locked_(pen_->writer().locked()) {
     pen_->set_on_chunk([this] {
       {
         const std::lock_guard lock(sync_mutex_);
@@ -99,6 +102,7 @@ class Recorder::WriterThread {
   }
 
   [[nodiscard]] std::uint64_t written_ticks() const { return pen_->written_ticks(); }
+  [[nodiscard]] bool locked() const { return locked_; }
 
   [[nodiscard]] WaitingNotes& notes() { return pen_->notes(); }
 
@@ -136,7 +140,9 @@ class Recorder::WriterThread {
   Status write_end() {
     if (Status drained = pen_->drain_last(stopped_early_); !drained.ok()) return drained;
     stop_syncing();
-    return pen_->finish();
+    const Status finished = pen_->finish();
+    const std::lock_guard lock(sync_mutex_);
+    return finished.ok() && unsynced_ ? Status(*unsynced_) : finished;
   }
 
   void fail(const Error& problem) {
@@ -145,7 +151,6 @@ class Recorder::WriterThread {
     tell(problem);
   }
 
-  // pen or syncer
   void tell(const Error& problem) {
     {
       const std::lock_guard lock(mutex_);
@@ -164,8 +169,11 @@ class Recorder::WriterThread {
       if (sync_stopping_) return;
       sync_wanted_ = false;
       lock.unlock();
-      if (Status synced = pen_->writer().sync(); !synced.ok()) tell(synced.error());
+      const Status synced = pen_->writer().sync();
       lock.lock();
+      // what is written goes on to be read, so the recording goes on; finish() reports it. The system says
+      // it once, so it is kept
+      if (!synced.ok() && !unsynced_) unsynced_ = synced.error();
     }
   }
 
@@ -182,6 +190,7 @@ class Recorder::WriterThread {
   std::unique_ptr<Pen> pen_;
   std::function<void(const Error&)> on_trouble_;
   bool failed_ = false;  // used only by the pen's thread
+  const bool locked_;
 
   // shared between threads
   mutable std::mutex mutex_;
@@ -192,6 +201,7 @@ class Recorder::WriterThread {
   std::mutex sync_mutex_;
   std::condition_variable sync_wake_;
   bool sync_wanted_ = false, sync_stopping_ = false;
+  std::optional<Error> unsynced_;
   std::thread syncer_;
   std::unique_ptr<rt::Thread> thread_;
 };
@@ -239,6 +249,7 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
   if (Status synced = (*pen)->writer().sync(); !synced.ok()) return give_up(synced.error());
   if (Status placed = rename_and_sync(beside, path); !placed.ok()) return give_up(placed.error());
 
+  path_ = path;
   (*pen)->session_begins();
   writer_thread_ = std::make_unique<WriterThread>(*this, std::move(*pen), std::move(on_trouble));
   return fine();
@@ -256,6 +267,14 @@ Status Recorder::note(const CourseEvent& event) {
   if (Status good = check(event); !good.ok()) return good;
   writer_thread_->notes().put({false, event.tick, to_json(event)});
   return fine();
+}
+
+std::vector<std::string> Recorder::notices() const {
+  if (!writer_thread_ || writer_thread_->locked()) return {};
+  return {
+      path_ +
+      ": its file system has no locks, so another burr could write the same file, and nobody can "
+      "see that it is still being recorded; give each session a name of its own"};
 }
 
 void Recorder::wait_for_room() {

@@ -29,6 +29,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "burr/base/result.h"
 #include "burr/record/course.h"
@@ -79,6 +80,9 @@ class Recorder {
   // (not real-time!) until no ring is more than half full. Sessions in real time never call it.
   void wait_for_room();
 
+  // After start(): what the user should know of the place that is recorded to, one sentence each.
+  [[nodiscard]] std::vector<std::string> notices() const;
+
   // The error so far (disk full ...). The session goes on; its rows are counted as dropped.
   [[nodiscard]] Status status() const;
 
@@ -100,6 +104,7 @@ class Recorder {
   std::optional<rt::Ring<tick::TickRow>> second_;
   double rate_hz_;
   bool realtime_;
+  std::string path_;
   std::unique_ptr<WriterThread> writer_thread_;
 };
 

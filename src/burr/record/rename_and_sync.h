@@ -14,7 +14,8 @@ namespace burr::record {
 // were.
 [[nodiscard]] Status rename_and_sync(const std::string& beside, const std::string& path);
 
-// True: a recorder has it open (McapWriter holds a lock, which ends with its process).
+// True: a recorder has it open (McapWriter holds a lock, which ends with its process). Always false on a
+// file system without locks.
 [[nodiscard]] bool being_written(const std::string& path);
 
 }  // namespace burr::record

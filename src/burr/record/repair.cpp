@@ -3,11 +3,17 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <set>
+#include <vector>
 
 #include "burr/record/mcap/mcap_reader.h"
 #include "burr/record/mcap/mcap_writer.h"
+#include "burr/record/mcap/packed.h"
 #include "burr/record/rename_and_sync.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
@@ -22,52 +28,112 @@ mcap::MessageIndexes indexes_of(const McapChunk& chunk) {
   return indexes;
 }
 
-Status copy(const McapReader& from, McapWriter& to, RepairReport& report, Progress& progress) {
+// A part of the file, for McapWriter.
+McapWriter::Pieces part_of(const McapReader& from, std::uint64_t offset, std::uint64_t length) {
+  return [&from, offset, length](const std::function<Status(ByteSpan)>& use) {
+    return from.read_raw({offset, length}, use);
+  };
+}
+
+// What stands before the chunks.
+Status copy_beginning(const McapReader& from, McapWriter& to) {
   for (const mcap::Schema& schema : from.schemas())
     if (Status added = to.add(schema); !added.ok()) return added;
   for (const mcap::Channel& channel : from.channels())
     if (Status added = to.add(channel); !added.ok()) return added;
-  for (std::size_t i = 0; i < from.metadata().size(); ++i) {
-    const auto pairs = from.read_metadata(i);
-    if (!pairs) {
-      report.notices.push_back(pairs.error().text);
-      continue;
-    }
-    if (Status added = to.add_metadata(from.metadata()[i].name, *pairs); !added.ok()) return added;
-  }
+  for (std::size_t i = 0; i < from.metadata().size(); ++i)
+    if (const auto pairs = from.read_metadata(i))
+      if (Status added = to.add_metadata(from.metadata()[i].name, *pairs); !added.ok())
+        return added;
+  for (const mcap::RecordAt& at : from.unknown())
+    if (Status added = to.copy_unknown(part_of(from, at.offset, at.length)); !added.ok())
+      return added;
   for (std::size_t i = 0; i < from.attachments().size(); ++i) {
-    const auto data = from.read_attachment(i);
-    if (!data) {
-      report.notices.push_back(data.error().text);
+    const mcap::AttachmentAt& at = from.attachments()[i];
+    if (!from.check_attachment(i).ok()) continue;
+    if (Status added = to.copy_attachment(at, part_of(from, at.offset, at.length)); !added.ok())
+      return added;
+  }
+  return fine();
+}
+
+// A chunk or a message that cannot be looked into.
+Status copy_opaque(const McapReader& from, const mcap::ChunkAt& at, McapWriter& to) {
+  if (!at.bare) return to.copy_chunk(at, part_of(from, at.offset, at.length + at.index_length));
+  return to.copy_message(at.index_offsets.begin()->first, at.start_ns,
+                         part_of(from, at.offset, at.length));
+}
+
+// Messages that stood outside of chunks are put into one.
+Status add(const McapReader& from, std::size_t index, const McapChunk& chunk, McapWriter& to) {
+  mcap::ChunkAt at = from.chunks()[index];
+  if (at.bare) {
+    std::vector<std::uint8_t> packed;
+    Packer().pack(chunk.bytes, packed);
+    at.compression = "zstd";
+    return to.add_chunk(at, chunk.crc, packed, indexes_of(chunk));
+  }
+  const auto packed = from.read_packed(index);
+  return packed ? to.add_chunk(at, chunk.crc, *packed, indexes_of(chunk)) : Status(packed.error());
+}
+
+Error stopped() {
+  return error(Trouble::interrupted, "repair was stopped; the recording is unchanged");
+}
+
+// Looks at everything, and says what is lost and what can be kept.
+Status examine(const McapReader& from, RepairReport& report, Progress& progress) {
+  for (std::size_t i = 0; i < from.metadata().size(); ++i)
+    if (const auto pairs = from.read_metadata(i); !pairs)
+      report.notices.push_back(pairs.error().text);
+  for (std::size_t i = 0; i < from.attachments().size(); ++i)
+    if (const Status whole = from.check_attachment(i); !whole.ok()) {
+      report.notices.push_back(whole.error().text);
       report.lost_bytes += from.attachments()[i].length;
+    }
+  const std::set<std::uint16_t> tick_channels = from.channels_of(kTicks.name);
+  const std::uint64_t count = from.chunks().size();
+  std::uint64_t end_tick = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    progress.report(0.5 * static_cast<double>(i) / static_cast<double>(count),
+                    "looking for damage");
+    if (progress.cancelled()) return stopped();
+    if (McapReader::opaque(from.chunks()[i])) {
+      // what is huge is no part of what burr wrote; what is packed otherwise may be
+      if (from.chunks()[i].unpacked_size <= mcap::kLargestChunk)
+        report.notices.push_back(from.read_chunk(i).error().text);
+      ++report.chunks;
       continue;
     }
-    const mcap::AttachmentAt& at = from.attachments()[i];
-    if (Status added = to.add_attachment(at.name, at.media_type, *data); !added.ok()) return added;
-  }
-
-  const std::uint16_t tick_channel = from.channel_of(kTicks.name);
-  const std::uint64_t count = from.chunks().size();
-  for (std::size_t i = 0; i < count; ++i) {
-    progress.report(static_cast<double>(i) / static_cast<double>(count), "repairing");
-    if (progress.cancelled())
-      return error(Trouble::interrupted, "repair was stopped; the recording is unchanged");
     const auto chunk = from.read_chunk(i);
-    const auto packed = from.read_packed(i);
-    if (!chunk || !packed) {
-      report.notices.push_back(chunk ? packed.error().text : chunk.error().text);
+    if (!chunk) {
+      report.notices.push_back(chunk.error().text);
       report.lost_bytes += from.chunks()[i].length;
       continue;
     }
-    if (Status added = to.add_chunk(from.chunks()[i], chunk->crc, *packed, indexes_of(*chunk));
-        !added.ok())
-      return added;
     ++report.chunks;
     std::vector<tick::TickRow> rows;
     for (const McapMessage& message : chunk->messages)
-      if (message.channel == tick_channel) static_cast<void>(decode_ticks(message.data, rows));
+      if (tick_channels.contains(message.channel))
+        static_cast<void>(decode_ticks(message.data, rows));
     report.ticks += rows.size();
-    if (!rows.empty()) report.seconds = static_cast<double>(rows.back().tick + 1);  // ticks, so far
+    if (!rows.empty()) end_tick = std::max(end_tick, rows.back().tick + 1);
+  }
+  report.seconds = static_cast<double>(end_tick);  // ticks, so far
+  return fine();
+}
+
+Status copy(const McapReader& from, McapWriter& to, Progress& progress) {
+  if (Status begun = copy_beginning(from, to); !begun.ok()) return begun;
+  const std::uint64_t count = from.chunks().size();
+  for (std::size_t i = 0; i < count; ++i) {
+    progress.report(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(count), "repairing");
+    if (progress.cancelled()) return stopped();
+    if (McapReader::opaque(from.chunks()[i])) {
+      if (Status added = copy_opaque(from, from.chunks()[i], to); !added.ok()) return added;
+    } else if (const auto chunk = from.read_chunk(i)) {
+      if (Status added = add(from, i, *chunk, to); !added.ok()) return added;
+    }
   }
   progress.report(1, "repairing");
   return fine();
@@ -75,13 +141,16 @@ Status copy(const McapReader& from, McapWriter& to, RepairReport& report, Progre
 
 // Ticks per second, from the session's description; 0: the description is lost.
 double rate_of(const McapReader& file) {
-  const std::uint16_t channel = file.channel_of(kSession.name);
+  const std::set<std::uint16_t> channels = file.channels_of(kSession.name);
   for (std::size_t i = 0; i < file.chunks().size(); ++i) {
-    if (!file.chunks()[i].index_offsets.contains(channel)) continue;
+    const auto& has = file.chunks()[i].index_offsets;
+    if (std::none_of(channels.begin(), channels.end(),
+                     [&has](std::uint16_t channel) { return has.contains(channel); }))
+      continue;
     const auto chunk = file.read_chunk(i);
     if (!chunk) continue;
     for (const McapMessage& message : chunk->messages) {
-      if (message.channel != channel) continue;
+      if (!channels.contains(message.channel)) continue;
       const auto info = session_from_json(as_text(message.data), "");
       if (info) return info->rate_hz;
     }
@@ -110,6 +179,14 @@ Result<RepairReport> repair(const std::string& path, const std::string& out, Pro
   if (rate_hz == 0)
     return error(path + ": nothing can be saved, because the description of the session is lost");
 
+  if (Status seen = examine(from, report, progress); !seen.ok()) return seen.error();
+  report.seconds /= rate_hz;
+  report.was_whole = from.finished() && report.lost_bytes == 0;
+  if (report.was_whole) {
+    report.kept_bytes = from.size();
+    return report;
+  }
+
   // the target of a link is repaired, the link stays
   std::filesystem::path target = std::filesystem::weakly_canonical(out, ignored);
   if (target.empty()) target = out;
@@ -120,15 +197,7 @@ Result<RepairReport> repair(const std::string& path, const std::string& out, Pro
     return problem;
   };
   if (Status opened = writer.open(beside, out); !opened.ok()) return opened.error();
-  if (Status copied = copy(from, writer, report, progress); !copied.ok())
-    return give_up(copied.error());
-  report.seconds /= rate_hz;
-  report.was_whole = from.finished() && report.lost_bytes == 0;
-  if (report.was_whole) {
-    ::unlink(beside.c_str());
-    report.kept_bytes = from.size();
-    return report;
-  }
+  if (Status copied = copy(from, writer, progress); !copied.ok()) return give_up(copied.error());
   if (Status finished = writer.finish(); !finished.ok()) return give_up(finished.error());
   report.kept_bytes = writer.size();
   if (Status placed = rename_and_sync(beside, target.string()); !placed.ok())

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include "burr/base/new_file.h"
 #include "burr/base/places.h"
 #include "burr/base/text_file.h"
+#include "burr/record/file_lock.h"
 
 namespace burr::record {
 namespace {
@@ -74,18 +74,18 @@ Status write_list(const std::string& list, const std::vector<RememberedScan>& sc
   return file->put_in_place();
 }
 
-// One process at a time. The lock ends with the object, and with the process.
+// One process at a time, where the file system has locks. The lock ends with the object, and with the process.
 class Lock {
  public:
   explicit Lock(const std::string& list)
       : file_(::open((list + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600)) {
     // another process holds it for milliseconds; one that hangs must not hold up a session
+    trouble_ = file_ < 0 ? errno : EWOULDBLOCK;
     for (int n = 0; file_ >= 0 && !held_ && n < kTries; ++n) {
-      held_ = ::flock(file_, LOCK_EX | LOCK_NB) == 0;
-      if (!held_ && errno != EWOULDBLOCK && errno != EINTR) break;
+      // without locks two writers at the same moment may lose the other's line, never the list
+      held_ = lock(file_) != FileLock::of_another;
       if (!held_) std::this_thread::sleep_for(kPause);
     }
-    trouble_ = held_ ? 0 : errno;
   }
   ~Lock() {
     if (file_ >= 0) ::close(file_);

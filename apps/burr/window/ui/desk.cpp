@@ -49,7 +49,7 @@ void Desk::settings_changed() {
 
 bool Desk::next(SDL_Event& event) {
   do {
-    if (SDL_PollEvent(&event) == 0) return false;
+    if (!pointer_.next(event)) return false;
     const bool stereo_key = event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_F3;
     if (!stereo_key) break;
     next_stereo();

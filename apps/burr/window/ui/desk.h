@@ -20,6 +20,7 @@
 #include "window/hands/pedals.h"
 #include "window/hands/spacemouse.h"
 #include "window/station/station_link.h"
+#include "window/ui/pointer_truth.h"
 #include "window/ui/printed_keys.h"
 #include "window/ui/ui.h"
 
@@ -95,6 +96,7 @@ class Desk {
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<Ui> ui_;  // after renderer_, so that it is destroyed before it
   PrintedKeys printed_;
+  PointerTruth pointer_;
   bool keep_old_ = false;       // the settings file had an error: keep the old one
   bool minimised_ = false;      // the window is not visible: nothing is drawn
   bool asked_quads_ = false;    // the window was made with a picture for each eye requested

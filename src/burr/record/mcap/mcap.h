@@ -41,8 +41,13 @@ enum class Kind : std::uint8_t {
 
 inline constexpr std::uint64_t kRecordHead = 9;  // kind and length [byte]
 inline constexpr std::uint64_t kFooter = kRecordHead + 20;
-// more than any chunk that burr writes; a larger number is taken as damage
-inline constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 28;  // unpacked [byte]
+// of a chunk: start, end, unpacked size, crc, length of the compression's name
+inline constexpr std::uint64_t kChunkFixed = 8 + 8 + 8 + 4 + 4;
+// A larger chunk is stepped over and not read: other writers may make them, but its records must
+// lie in memory.
+inline constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 29;  // unpacked [byte]
+
+using Pairs = std::map<std::string, std::string>;  // Metadata, channel metadata
 
 struct Schema {
   std::uint16_t id = 0;
@@ -50,8 +55,9 @@ struct Schema {
 };
 
 struct Channel {
-  std::uint16_t id = 0, schema = 0;
+  std::uint16_t id = 0, schema = 0;  // 0 is a channel like any other, and no schema
   std::string topic, encoding;
+  Pairs metadata;
 };
 
 // The position of a message: its time and its offset in the unpacked chunk.
@@ -63,8 +69,14 @@ struct ChunkAt {
   std::uint64_t offset = 0, length = 0;                  // of the Chunk record in the file
   std::uint64_t packed_size = 0, unpacked_size = 0;      // of its records
   std::uint64_t index_length = 0;                        // of the MessageIndexes that follow
-  std::string compression;                               // "zstd" or ""
-  std::map<std::uint16_t, std::uint64_t> index_offsets;  // channel -> its MessageIndex
+  std::string compression;                               // "zstd", "lz4" or ""
+  std::map<std::uint16_t, std::uint64_t> index_offsets;  // channel -> its MessageIndex, or 0
+  // messages that follow each other outside of any chunk: offset and length are those of their records
+  bool bare = false;
+};
+
+struct RecordAt {
+  std::uint64_t offset = 0, length = 0;
 };
 
 struct AttachmentAt {
@@ -77,8 +89,6 @@ struct MetadataAt {
   std::uint64_t offset = 0, length = 0;
   std::string name;
 };
-
-using Pairs = std::map<std::string, std::string>;  // Metadata, channel metadata
 
 void put_record(BytesOut& out, Kind kind, ByteSpan content);
 void put_pairs(BytesOut& out, const Pairs& pairs);

@@ -2,17 +2,17 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 
 #include "burr/base/check.h"
+#include "burr/base/disk_words.h"
 #include "burr/base/version.h"
+#include "burr/record/file_lock.h"
 #include "burr/record/mcap/crc32.h"
 
 namespace burr::record {
@@ -48,26 +48,9 @@ using mcap::Kind;
 
 namespace {
 
-const char* remedy(int code) {
-  switch (code) {
-    case ENOSPC:
-    case EDQUOT:
-      return "; free some space or choose another disk";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "; choose a folder that you may write to";
-    case EFBIG:
-      return "; raise the limit on file size (ulimit -f)";
-    default:
-      return "";
-  }
-}
-
 Error trouble(const std::string& shown, const char* doing) {
-  const int code = errno;
   return error(Trouble::io,
-               fmt::format("{}: cannot {}: {}{}", shown, doing, std::strerror(code), remedy(code)));
+               fmt::format("{}: cannot {}: {}", shown, doing, base::disk_trouble(errno)));
 }
 
 void put_schema(BytesOut& out, const mcap::Schema& schema) {
@@ -82,7 +65,7 @@ void put_channel(BytesOut& out, const mcap::Channel& channel) {
   out.put(channel.schema);
   out.text(channel.topic);
   out.text(channel.encoding);
-  mcap::put_pairs(out, {});
+  mcap::put_pairs(out, channel.metadata);
 }
 
 // array of (u16, u64), preceded by its length in bytes
@@ -105,14 +88,38 @@ Status McapWriter::open(const std::string& path, const std::string& shown) {
   shown_ = shown;
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) return trouble(shown_, "be written");
-  if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
+  const FileLock got = lock(file_);
+  locked_ = got == FileLock::taken;
+  if (got == FileLock::of_another)
     return error(Trouble::io, shown_ + ": another burr is writing this file; choose another name");
-  if (::ftruncate(file_, 0) != 0) return trouble(shown_, "be written");
+  const Status begun = begin(path);
+  if (!begun.ok()) ::unlink(path.c_str());
+  return begun;
+}
+
+Status McapWriter::begin(const std::string& path) {
+  if (Status empty = make_empty(path); !empty.ok()) return empty;
   if (Status written = append(mcap::kMagic); !written.ok()) return written;
   BytesOut header;
   header.text("burr");
   header.text(std::string("burr ") + base::version());
   return append_record(Kind::header, header.span());
+}
+
+// What a killed burr left under this name goes.
+Status McapWriter::make_empty(const std::string& path) {
+  struct stat old = {};
+  if (::fstat(file_, &old) == 0 && old.st_size == 0) return fine();
+  if (::ftruncate(file_, 0) == 0) return fine();
+  const Error problem = trouble(shown_, "be written");
+  ::close(file_);
+  file_ = -1;
+  // a file system that shortens no file may still let it go
+  if (::unlink(path.c_str()) == 0)
+    file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file_ < 0) return problem;
+  static_cast<void>(lock(file_));
+  return fine();
 }
 
 Status McapWriter::append(ByteSpan bytes) {
@@ -154,7 +161,7 @@ Result<std::uint16_t> McapWriter::add_schema(const std::string& name, const std:
 Result<std::uint16_t> McapWriter::add_channel(const std::string& topic, const std::string& encoding,
                                               std::uint16_t schema) {
   const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
-  if (Status added = add(mcap::Channel{id, schema, topic, encoding}); !added.ok())
+  if (Status added = add(mcap::Channel{id, schema, topic, encoding, {}}); !added.ok())
     return added.error();
   return id;
 }
@@ -267,37 +274,63 @@ Status McapWriter::add_chunk(const mcap::ChunkAt& from, std::uint32_t unpacked_c
   }
   chunk.index_length = whole.size() - chunk.length;
   if (Status written = append(whole.span()); !written.ok()) return written;
-  count(indexes, chunk);
+  count_chunk(chunk, chunk.offset);
   return fine();
 }
 
-void McapWriter::count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt& chunk) {
-  first_ns_ = chunks_ == 0 ? chunk.start_ns : std::min(first_ns_, chunk.start_ns);
-  last_ns_ = std::max(last_ns_, chunk.end_ns);
-  if (chunks_++ == 0) first_chunk_ = chunk.offset;
-  for (const auto& [channel, messages] : indexes) {
-    message_counts_[channel] += messages.size();
-    messages_ += messages.size();
-  }
+void McapWriter::count_time(std::uint64_t first_ns, std::uint64_t last_ns) {
+  first_ns_ = timed_ ? std::min(first_ns_, first_ns) : first_ns;
+  last_ns_ = std::max(last_ns_, last_ns);
+  timed_ = true;
+}
+
+void McapWriter::count_chunk(const mcap::ChunkAt& chunk, std::uint64_t offset) {
+  count_time(chunk.start_ns, chunk.end_ns);
+  if (chunks_++ == 0) first_chunk_ = offset;
+}
+
+Status McapWriter::copy_chunk(const mcap::ChunkAt& chunk, const Pieces& with_its_indexes) {
+  count_chunk(chunk, size_);
+  return copy_unknown(with_its_indexes);
+}
+
+Status McapWriter::copy_attachment(const mcap::AttachmentAt& attachment, const Pieces& pieces) {
+  attachments_.push_back(attachment);
+  attachments_.back().offset = size_;
+  return copy_unknown(pieces);
+}
+
+Status McapWriter::copy_message(std::uint16_t channel, std::uint64_t time_ns,
+                                const Pieces& pieces) {
+  count_time(time_ns, time_ns);
+  ++message_counts_[channel];
+  return copy_unknown(pieces);
+}
+
+Status McapWriter::copy_unknown(const Pieces& pieces) {
+  return pieces([this](ByteSpan piece) { return append(piece); });
 }
 
 Status McapWriter::sync() {
-  if (::fdatasync(file_) != 0) return trouble(shown_, "be flushed to the disk");
+  int failed = 0;
+  do failed = ::fdatasync(file_);
+  while (failed != 0 && errno == EINTR);
+  if (failed != 0 && !base::not_offered(errno)) return trouble(shown_, "be flushed to the disk");
   return fine();
 }
 
 Status McapWriter::still_there() const {
   struct stat now = {};
-  if (::fstat(file_, &now) != 0) return trouble(shown_, "be examined");
-  if (now.st_nlink > 0) return fine();
+  // a disk that cannot tell may go on to be written
+  if (::fstat(file_, &now) != 0 || now.st_nlink > 0) return fine();
   return error(Trouble::io, shown_ +
                                 ": was removed while it was being recorded, and its content is "
                                 "lost; do not touch a recording until the session has ended");
 }
 
-// Positions of the chunks and their indexes, read back from the headers of their records: to keep
-// them in memory would cost 300 bytes for each of 25 chunks a second.
-Status McapWriter::read_back(BytesOut& chunk_indexes) const {
+// Positions of the chunks and their indexes, and the numbers of messages, read back from the headers of
+// their records: to keep them in memory would cost 300 bytes for each of 25 chunks a second.
+Status McapWriter::read_back(BytesOut& chunk_indexes) {
   std::array<std::uint8_t, 128> head{};
   mcap::ChunkAt chunk;
   const auto put = [&] {
@@ -316,7 +349,7 @@ Status McapWriter::read_back(BytesOut& chunk_indexes) const {
   for (std::uint64_t at = first_chunk_; chunks_ > 0 && at < size_;) {
     const ssize_t there = ::pread(file_, head.data(), head.size(), static_cast<off_t>(at));
     if (there < 0 && errno == EINTR) continue;
-    if (there < 0) return trouble(shown_, "be read back");
+    if (there < 0) return fine();  // the file can be read without an index, only more slowly
     BytesIn in(ByteSpan(head).first(static_cast<std::size_t>(there)));
     const auto kind = static_cast<Kind>(in.get<std::uint8_t>());
     const std::uint64_t length = mcap::kRecordHead + in.get<std::uint64_t>();
@@ -332,8 +365,11 @@ Status McapWriter::read_back(BytesOut& chunk_indexes) const {
       chunk.compression = in.text();
       chunk.packed_size = in.get<std::uint64_t>();
     } else if (kind == Kind::message_index) {
-      chunk.index_offsets[in.get<std::uint16_t>()] = at;
+      constexpr std::uint64_t kEntry = 16;  // a time and an offset
+      const auto channel = in.get<std::uint16_t>();
+      chunk.index_offsets[channel] = at;
       chunk.index_length += length;
+      message_counts_[channel] += in.get<std::uint32_t>() / kEntry;
     }
     if (!in.ok() || length > size_ - at)
       return error(Trouble::io, shown_ +
@@ -342,6 +378,7 @@ Status McapWriter::read_back(BytesOut& chunk_indexes) const {
     at += length;
   }
   if (chunks_ > 0) put();
+  indexed_ = true;
   return fine();
 }
 
@@ -356,6 +393,7 @@ Status McapWriter::finish() {
   // the summary: records of each kind together, and where each kind begins
   const std::uint64_t summary_start = size_;
   BytesOut summary;
+  if (!indexed_) return end_file(summary, 0, 0);
   BytesOut offsets;
   const auto group = [&](Kind kind, auto&& put_all) {
     const std::uint64_t before = summary.size();
@@ -382,7 +420,9 @@ Status McapWriter::finish() {
   });
   group(Kind::statistics, [&] {
     put(Kind::statistics, [&](BytesOut& out) {
-      out.put(messages_);
+      std::uint64_t messages = 0;
+      for (const auto& [channel, count] : message_counts_) messages += count;
+      out.put(messages);
       out.put(static_cast<std::uint16_t>(schemas_.size()));
       out.put(static_cast<std::uint32_t>(channels_.size()));
       out.put(static_cast<std::uint32_t>(attachments_.size()));
@@ -417,6 +457,12 @@ Status McapWriter::finish() {
 
   const std::uint64_t offsets_start = summary_start + summary.size();
   summary.raw(offsets.span());
+  return end_file(summary, summary_start, offsets_start);
+}
+
+// summary: everything from its start on; empty: there is none
+Status McapWriter::end_file(BytesOut& summary, std::uint64_t summary_start,
+                            std::uint64_t offsets_start) {
   summary.put(static_cast<std::uint8_t>(Kind::footer));
   summary.put(std::uint64_t{20});
   summary.put(summary_start);

@@ -8,7 +8,7 @@
 // the recording; for the summary, the index of all chunks is read back from the file at the end.
 #pragma once
 
-#include <atomic>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,10 +26,13 @@ class McapWriter {
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  // Creates the file with its header; a file of this name is overwritten. `shown`: its name in
-  // errors. The open file is locked (flock), so that `burr repair` knows that it is still being
-  // written.
+  // Creates the file with its header; a file of this name is overwritten, or gone after an error. `shown`: its name in
+  // errors. The open file is locked, so that `burr repair` knows that it is still being written, where
+  // the file system has locks.
   [[nodiscard]] Status open(const std::string& path, const std::string& shown);
+
+  // After open(). False: the file system has no locks.
+  [[nodiscard]] bool locked() const { return locked_; }
 
   // The writer assigns the ids, from 1. Written at once, and again in the summary.
   [[nodiscard]] Result<std::uint16_t> add_schema(const std::string& name,
@@ -58,24 +61,40 @@ class McapWriter {
   [[nodiscard]] Status add_chunk(const mcap::ChunkAt& chunk, std::uint32_t unpacked_crc,
                                  ByteSpan packed, const mcap::MessageIndexes& indexes);
 
-  // Brings everything appended so far to the disk, not only to the kernel. Slow.
+  // Append records of another file as they are, which come in pieces; for repair, where they are too
+  // large to be read at once, or of a kind that burr does not know.
+  using Pieces = std::function<Status(const std::function<Status(ByteSpan)>&)>;
+  [[nodiscard]] Status copy_chunk(const mcap::ChunkAt& chunk, const Pieces& with_its_indexes);
+  [[nodiscard]] Status copy_attachment(const mcap::AttachmentAt& attachment, const Pieces& pieces);
+  [[nodiscard]] Status copy_message(std::uint16_t channel, std::uint64_t time_ns,
+                                    const Pieces& pieces);
+  [[nodiscard]] Status copy_unknown(const Pieces& pieces);
+
+  // Brings everything appended so far to the disk, not only to the kernel, where the file system offers
+  // it. Slow.
   [[nodiscard]] Status sync();
   // Error: somebody has removed the file; what is written now belongs to no folder.
   [[nodiscard]] Status still_there() const;
-  // Summary, footer, sync, close.
+  // Summary, footer, sync, close. A disk from which nothing can be read back gets no summary.
   [[nodiscard]] Status finish();
 
   [[nodiscard]] std::uint64_t size() const { return size_; }  // of the file so far [byte]
 
  private:
+  [[nodiscard]] Status begin(const std::string& path);
+  [[nodiscard]] Status make_empty(const std::string& path);
   [[nodiscard]] Status append(ByteSpan bytes);
   [[nodiscard]] Status append_record(mcap::Kind kind, ByteSpan content);
-  void count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt& chunk);
-  [[nodiscard]] Status read_back(BytesOut& chunk_indexes) const;
+  void count_time(std::uint64_t first_ns, std::uint64_t last_ns);
+  void count_chunk(const mcap::ChunkAt& chunk, std::uint64_t offset);
+  [[nodiscard]] Status read_back(BytesOut& chunk_indexes);
+  [[nodiscard]] Status end_file(BytesOut& summary, std::uint64_t summary_start,
+                                std::uint64_t offsets_start);
 
   std::string shown_;
   int file_ = -1;
-  bool failed_ = false;
+  bool failed_ = false, locked_ = false;
+  bool indexed_ = false;  // read_back() found all chunks
   std::uint64_t size_ = 0;
   std::uint32_t crc_ = 0;  // of everything written so far
 
@@ -90,7 +109,8 @@ class McapWriter {
   std::vector<mcap::AttachmentAt> attachments_;
   std::vector<mcap::MetadataAt> metadata_;
   std::map<std::uint16_t, std::uint64_t> message_counts_;
-  std::uint64_t messages_ = 0, first_ns_ = 0, last_ns_ = 0;
+  std::uint64_t first_ns_ = 0, last_ns_ = 0;
+  bool timed_ = false;  // something has a time
 };
 
 }  // namespace burr::record

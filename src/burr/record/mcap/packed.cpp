@@ -41,10 +41,9 @@ struct Unpacker {
 // A promise of more is not believed before the bytes are there: unpack() [byte].
 constexpr std::uint64_t kBelieved = std::uint64_t{1} << 25;
 
-// The whole frame at once, into memory of the promised size.
+// All frames at once, into memory of the promised size.
 bool unpack_at_once(ZSTD_DCtx* zstd, ByteSpan packed, std::size_t size,
                     std::vector<std::uint8_t>& out) {
-  if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size()) return false;
   out.resize(size);
   const std::size_t took =
       ZSTD_decompressDCtx(zstd, out.data(), out.size(), packed.data(), packed.size());
@@ -78,7 +77,7 @@ bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out)
     if (ZSTD_isError(more) != 0U) return false;
     filled = to.pos;
     if (filled > size) return false;
-    if (more == 0) break;
+    if (more == 0 && in.pos == in.size) break;                   // otherwise another frame follows
     if (in.pos == in.size && filled < out.size()) return false;  // ends too early
   }
   out.resize(filled);

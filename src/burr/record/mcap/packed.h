@@ -28,7 +28,7 @@ class Packer {
   std::unique_ptr<Context> context_;
 };
 
-// False: not zstd, damaged, or not exactly `size` bytes long. Above 32 MiB
+// One frame of zstd or several. False: not zstd, damaged, or not exactly `size` bytes long. Above 32 MiB
 // memory grows only as bytes really come out, so a header that promises gigabytes costs nothing.
 [[nodiscard]] bool unpack(ByteSpan packed, std::uint64_t size, std::vector<std::uint8_t>& out);
 
