@@ -31,7 +31,7 @@ set(with_threads "tests/(rt|device)/|(window/window|window/pages|sound/voice|sou
 # Tests of devices in real time mostly wait, and use a fifth of a core: they run beside tests of other rooms, but not
 # beside each other. On two cores with a load of 9 all of them passed, slowed down by a sanitizer. They run one after the
 # other beside the other builds, and for that alone do not wait for them (`at_once`, COST).
-set(alone_but_window Cap Grip Tools/Rack RackOfASession Directions ExportPieces ExportRequest Film Greys HandPlane Hands ImguiKeys ImportDoubts ImportWindow LabelTable Measuring Memory MillCases MillNotes MirrorWords Planes Steps Technique
+set(alone_but_window Cap Grip Tools/Rack RackOfASession Directions ExportPieces ExportRequest Film Greys HandPlane Hands ImguiKeys ImportDoubts ImportWindow LabelTable Measuring Memory DocumentsFolder MillCases MillNotes MirrorWords Planes Steps Technique
   Bones/Hover HoverHand TypedPath PrebuiltPhantom Preview PrintedKeys Questions RateWindow Region Replay Scores StatusLine Words Work SavedViewsFile SettingsFile)
 set(manner_window RESOURCE_LOCK window COST 40)
 set(manner_device RESOURCE_LOCK clock COST 500)

@@ -83,7 +83,7 @@ ONLY = {
     ("school", "record"): {"identity.h"},
     ("words", "scenario"): {"lesson.h"},
     ("guidance", "record"): {"course.h", "private_text.h"},
-    ("guidance", "scoring"): {"step_done.h"},
+    ("guidance", "scoring"): {"step_done.h", "step_target.h"},
     ("guidance", "workshop"): {"label_check.h"},
     ("report", "edit"): {"piece_store.h"},
     ("report", "sim"): {"move_pieces.h"},

@@ -185,18 +185,20 @@ py::dict Recording::process(const py::object& call) {
 
 py::dict total_of(const scoring::Total& total) {
   return py::dict("points"_a = or_none(total.points), "met"_a = total.met,
-                  "assessable"_a = total.assessable, "items"_a = total.items);
+                  "too_early"_a = total.too_early, "assessable"_a = total.assessable,
+                  "items"_a = total.items);
 }
 
 py::dict item_of(const scoring::Item& item, const scoring::Outcome& outcome) {
-  py::dict row("id"_a = item.id, "part"_a = scoring::word_of(item.part), "weight"_a = item.weight,
-               "gate"_a = item.gate, "verdict"_a = scoring::word_of(outcome.verdict),
-               "borderline"_a = outcome.borderline, "earned"_a = outcome.earned,
-               "reason"_a = outcome.reason, "measure"_a = item.how->name,
-               "calibrated"_a = item.calibrated, "what"_a = outcome.what,
-               "value"_a = or_none(outcome.value), "threshold"_a = outcome.threshold,
-               "error"_a = outcome.error, "at_least"_a = outcome.at_least, "credit"_a = py::none(),
-               "place_m"_a = py::none(), "tick"_a = py::none());
+  py::dict row(
+      "id"_a = item.id, "part"_a = scoring::word_of(item.part), "weight"_a = item.weight,
+      "gate"_a = item.gate, "verdict"_a = scoring::word_of(outcome.verdict),
+      "outcome"_a = scoring::word_of(scoring::standing_of(outcome)),
+      "harm"_a = scoring::did_harm(item, outcome), "borderline"_a = outcome.borderline,
+      "earned"_a = outcome.earned, "reason"_a = outcome.reason, "measure"_a = item.how->name,
+      "calibrated"_a = item.calibrated, "what"_a = outcome.what, "value"_a = or_none(outcome.value),
+      "threshold"_a = outcome.threshold, "error"_a = outcome.error, "at_least"_a = outcome.at_least,
+      "credit"_a = py::none(), "place_m"_a = py::none(), "tick"_a = py::none());
   if (outcome.verdict != scoring::Verdict::not_assessable)
     row["credit"] = scoring::credit_of(item, outcome);
   if (outcome.place) row["place_m"] = array_of(*outcome.place);

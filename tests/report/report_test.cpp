@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "burr/report/evidence_strip.h"
 #include "burr/report/report_page.h"
 #include "burr/report/report_words.h"
+#include "burr/report/score_words.h"
 #include "burr/report/self_marks.h"
 #include "burr/words/words.h"
 #include "support/test_places.h"
@@ -97,9 +99,9 @@ Scored example() {
               with("gate", Verdict::unmet, 1.0),       with("follows", Verdict::unmet, 0.9),
               with("idle", Verdict::unmet, 0.0),       with("good", Verdict::met, 0.9),
               with("open", Verdict::not_assessable, 0)};
-  outcomes[3].reason = "it requires \"gate\", which is unmet";
+  outcomes[3].reason = "it requires \"gate\", which is not met";
   outcomes[4].earned = false;
-  outcomes[4].reason = "too little was removed to earn it";
+  outcomes[4].reason = "too little was removed to say";
   outcomes[6].reason = "the bone has no label of it";
   outcomes[6].value.reset();
   scored.score.worked = 0.9;
@@ -129,8 +131,13 @@ TEST(Advice, SaysToGoOnWhereLittleWasRemoved) {
   scored.score.worked = 0.04;
   const auto told = advice(scored, {});
   ASSERT_EQ(told.size(), kMostAdvice);
-  EXPECT_NE(told[0].say.find("only 4 %"), std::string::npos) << told[0].say;
-  EXPECT_EQ(told[1].say, "Leave it whole.");
+  EXPECT_EQ(told[0].say, "Leave it whole.") << "what did harm comes before all else";
+  EXPECT_NE(told[1].say.find("only 4 %"), std::string::npos) << told[1].say;
+  // nobody did harm, and little is gone: that alone
+  for (auto& outcome : scored.score.outcomes) outcome.verdict = Verdict::met;
+  const auto idle = advice(scored, {});
+  ASSERT_EQ(idle.size(), 1U);
+  EXPECT_NE(idle[0].say.find("only 4 %"), std::string::npos) << idle[0].say;
 }
 
 TEST(Agreement, CountsOnlyWhatBothJudged) {
@@ -146,10 +153,15 @@ TEST(Agreement, CountsOnlyWhatBothJudged) {
 
 TEST(SelfMarks, AreReadByTheIdOfTheItem) {
   const Scored scored = example();
-  const auto marks = parse_self_marks("[marks]\nnear = \"met\"\n\"far\" = \"unmet\"\n", "m.toml",
+  const auto marks = parse_self_marks("[marks]\nnear = \"met\"\n\"far\" = \"not met\"\n", "m.toml",
                                       scored.judged.rubric);
   ASSERT_TRUE(marks) << marks.error().text;
   EXPECT_EQ(*marks, (SelfMarks{{"near", SelfMark::met}, {"far", SelfMark::unmet}}));
+  // as files of before, and recordings, have it
+  const auto old =
+      parse_self_marks("[marks]\n\"far\" = \"unmet\"\n", "m.toml", scored.judged.rubric);
+  ASSERT_TRUE(old) << old.error().text;
+  EXPECT_EQ(*old, (SelfMarks{{"far", SelfMark::unmet}}));
 }
 
 TEST(SelfMarks, NameFileLineFieldAndRemedyOfAMistake) {
@@ -157,7 +169,7 @@ TEST(SelfMarks, NameFileLineFieldAndRemedyOfAMistake) {
   const std::array<std::pair<const char*, const char*>, 5> kMistakes = {
       {{"[marks]\nno-such = \"met\"\n",
         "m.toml: line 2: no-such: r.toml has no such item; use one of "},
-       {"[marks]\nnear = true\n", R"(m.toml: line 2: near: must be "met", "unmet" or "unknown")"},
+       {"[marks]\nnear = true\n", R"(m.toml: line 2: near: must be "met", "not met" or "unknown")"},
        {"mark = 3\n", "m.toml: line 1: mark: is not a known field; write a table [marks]"},
        {"", "m.toml: marks: is missing; begin with [marks]"},
        {"[marks\n", "m.toml"}}};
@@ -168,21 +180,44 @@ TEST(SelfMarks, NameFileLineFieldAndRemedyOfAMistake) {
   }
 }
 
-// The table of translations is by the English text, so that text must be the library's.
 // Nobody did anything wrong where too little was done: it is not "not met", and no cross stands there.
-TEST(ReportWords, AGateThatWasNotEarnedReadsAsSuchInTheListToo) {
+TEST(ReportWords, ThereAreThreeOutcomesWithAWordAndASignEach) {
   speak("en");
-  scoring::Item gate, plain;
-  gate.gate = true;
-  Outcome outcome = with("gate", Verdict::unmet, 0.0);
-  EXPECT_EQ(mark_of(gate, outcome).tone, Tone::bad);
+  Outcome outcome = with("any", Verdict::unmet, 0.0);
+  EXPECT_EQ(mark_of(outcome).word, "not met");
+  EXPECT_EQ(mark_of(outcome).tone, Tone::bad);
   outcome.earned = false;
-  EXPECT_EQ(mark_of(gate, outcome).word, gate_mark(outcome).word);
-  EXPECT_EQ(mark_of(gate, outcome).word, word(Word::report_gate_unearned));
-  EXPECT_EQ(mark_of(gate, outcome).tone, Tone::open);
-  EXPECT_EQ(mark_of(plain, outcome).word, word(Word::report_verdict_unmet));
+  EXPECT_EQ(mark_of(outcome).word, "too early to say");
+  EXPECT_EQ(mark_of(outcome).tone, Tone::open);
+  outcome = with("any", Verdict::met, 0.9);
+  EXPECT_EQ(mark_of(outcome).word, "met");
+  EXPECT_EQ(mark_of(outcome).tone, Tone::good);
+  outcome.verdict = Verdict::not_assessable;
+  EXPECT_EQ(mark_of(outcome).word, "not assessable");
+  EXPECT_EQ(mark_of(outcome).tone, Tone::none) << "no outcome";
 }
 
+// In the terminal as on the page, and with what did harm first.
+TEST(ScoreWords, SayTheSameThreeOutcomesAndHarmComesFirst) {
+  const Scored scored = example();
+  const scoring::Rubric& rubric = scored.judged.rubric;
+  const auto line = [&](std::size_t n) {
+    return item_line(rubric.items[n], scored.score.outcomes[n]);
+  };
+  EXPECT_EQ(line(0).find("  not met "), 0U) << line(0);
+  EXPECT_EQ(line(4).find("  too early to say "), 0U) << line(4);
+  EXPECT_EQ(line(5).find("  met "), 0U) << line(5);
+  const auto order = scoring::in_order(rubric, scored.score.outcomes, scoring::Part::product);
+  EXPECT_EQ(order, (Numbers{2, 0, 1, 3, 4, 5, 6}));
+  EXPECT_EQ(safety_line(rubric, scored.score), "safety: 0 of 1 items met; not met: gate");
+  const auto json = nlohmann::json::parse(score_json(rubric, scored.score));
+  EXPECT_EQ(json["items"][4]["verdict"], "unmet") << "as programs know it";
+  EXPECT_EQ(json["items"][4]["outcome"], "too early to say");
+  EXPECT_EQ(json["items"][4]["harm"], false);
+  EXPECT_EQ(json["items"][2]["harm"], true);
+}
+
+// The table of translations is by the English text, so that text must be the library's.
 TEST(ReportWords, KnowWhatTheLibraryCallsItsValues) {
   std::string library;
   for (const char* file :

@@ -64,7 +64,7 @@ TEST(Outcome, AGradedItemEarnsAPartByItsValue) {
   EXPECT_DOUBLE_EQ(credit(0.9, kMet), 0.75);
   EXPECT_DOUBLE_EQ(credit(1.5, kMet), 1);
   // unmet because of what it requires, or for want of work
-  outcome.reason = "it requires \"a\", which is unmet";
+  outcome.reason = "it requires \"a\", which is not met";
   EXPECT_DOUBLE_EQ(credit(0.9, kUnmet), 0);
   outcome.reason.clear();
   outcome.earned = false;
@@ -130,7 +130,7 @@ TEST(Outcome, RequiresFollowsTheChain) {
   apply_requires(made.rubric, made.outcomes);
   EXPECT_EQ(made.outcomes[0].verdict, kUnmet);
   EXPECT_EQ(made.outcomes[1].verdict, kUnmet);
-  EXPECT_EQ(made.outcomes[1].reason, "it requires \"a\", which is unmet");
+  EXPECT_EQ(made.outcomes[1].reason, "it requires \"a\", which is not met");
   EXPECT_DOUBLE_EQ(*made.total(kProduct).points, 0);
 }
 
@@ -163,6 +163,42 @@ TEST(Outcome, RequiresHandsOnThatItWasNotEarned) {
   EXPECT_FALSE(made.outcomes[0].earned);
 }
 
+TEST(Outcome, PeopleAreToldOneOfThreeOutcomes) {
+  Made made;
+  made.add("met", kProduct, 1, kMet)
+      .add("not", kProduct, 1, kUnmet)
+      .add("idle", kProduct, 1, kUnmet);
+  made.add("none", kProduct, 1, kOpen);
+  made.outcomes[2].earned = false;
+  const Standing expected[] = {Standing::met, Standing::not_met, Standing::too_early,
+                               Standing::not_assessable};
+  for (std::size_t n = 0; n < 4; ++n) EXPECT_EQ(standing_of(made.outcomes[n]), expected[n]) << n;
+  const Total total = made.total(kProduct);
+  EXPECT_EQ(total.met, 1U);
+  EXPECT_EQ(total.too_early, 1U);
+  EXPECT_EQ(total.assessable, 3U) << "it stays in the denominator: who does nothing loses no items";
+}
+
+// What judges that something stayed as it was did harm where it is not met; what was merely not reached did not.
+TEST(Outcome, HarmIsWhatHadToStay) {
+  Item item;
+  Outcome outcome;
+  outcome.verdict = kUnmet;
+  for (const Measure& measure : measures()) {
+    item.how = &measure;
+    const std::string name = measure.name;
+    const bool stays =
+        name.starts_with("intact_") || name == "kept" || name == "untouched" || name == "clearance";
+    EXPECT_EQ(did_harm(item, outcome), stays) << name;
+    item.gate = true;
+    EXPECT_TRUE(did_harm(item, outcome)) << name;
+    outcome.earned = false;
+    EXPECT_FALSE(did_harm(item, outcome)) << name << ": too early to say";
+    outcome.earned = true;
+    item.gate = false;
+  }
+}
+
 TEST(Outcome, BorderlineIsNearerThanItsError) {
   Item item;
   item.how = measure_named("identified");
@@ -178,7 +214,7 @@ TEST(Outcome, WhatIsHurtIsNotMerelyUnearned) {
   const Outcome idle = decided(item, metrics::intact_mark(0, 0.5e-3, 1e-4, 0.1), "depth", false);
   EXPECT_EQ(idle.verdict, kUnmet);
   EXPECT_FALSE(idle.earned);
-  EXPECT_EQ(idle.reason, "too little was removed to earn it");
+  EXPECT_EQ(idle.reason, "too little was removed to say");
   const Outcome hurt = decided(item, metrics::intact_mark(1e-3, 0.5e-3, 1e-4, 0.1), "depth", false);
   EXPECT_EQ(hurt.verdict, kUnmet);
   EXPECT_TRUE(hurt.earned);

@@ -123,7 +123,7 @@ TEST(Score, WhatWasCutOpenWasNotFound) {
   EXPECT_TRUE(deep.outcomes[1].earned);
   EXPECT_GT(deep.outcomes[1].value.value_or(0), 1e-9);
   EXPECT_EQ(deep.outcomes[0].verdict, Verdict::unmet);
-  EXPECT_EQ(deep.outcomes[0].reason, "it requires \"ball.whole\", which is unmet");
+  EXPECT_EQ(deep.outcomes[0].reason, "it requires \"ball.whole\", which is not met");
   EXPECT_NEAR(deep.product.points.value_or(-1), 100.0 / 3, 1e-9);
 }
 

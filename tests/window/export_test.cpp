@@ -5,14 +5,19 @@
 
 #include <sys/resource.h>
 #include <csignal>
+#include <cstdlib>
 
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "burr/io/export_part.h"
+#include "shared/piece_files.h"
 #include "shared/window_session.h"
 #include "window/mill/window.h"
+#include "window/parts/documents_folder.h"
 #include "window/user.h"
 
 namespace burr::app {
@@ -36,10 +41,11 @@ class Export : public Window {
     return [this, words] { return desk_->status_text.find(words) != std::string::npos; };
   }
   // the middle of what the page has, at 1280 x 720
-  static constexpr int kX = 280, kY = 155;
-  static void choose(int n) { click(kX + 28 + 79 + 166 * n, kY + 80); }
+  static constexpr int kX = 240, kY = 155;
+  enum Choice { kBone, kRemoved, kAdded, kPieces, kPicture };
+  static void choose(Choice what) { click(kX + 28 + 58 + 124 * what, kY + 80); }
   static void into_path() { click(kX + 300, kY + 174); }
-  static void write() { click(kX + 612, kY + 288); }
+  static void write() { click(kX + 692, kY + 288); }
   // writes into folder_ by the path that stands there when the page opens
   void mill_in(WindowSession& ready, std::vector<Script::Step> steps) {
     Script script(std::move(steps), desk_->status_text);
@@ -96,7 +102,7 @@ TEST_F(Export, WritesWhatWasRemovedAndItsVolumeIsThatOfTheLedger) {
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
   auto steps = cuts(session);
-  steps.push_back({"the page", looks(5), [] { choose(1); }});
+  steps.push_back({"the page", looks(5), [] { choose(kRemoved); }});
   steps.push_back({"the choice", looks(5), [] { write(); }});
   steps.push_back({"the word that it is written", says("triangles"), [] { press(SDLK_q); }});
   mill_in(*ready, std::move(steps));
@@ -108,13 +114,55 @@ TEST_F(Export, WritesWhatWasRemovedAndItsVolumeIsThatOfTheLedger) {
   EXPECT_GT(fs::file_size(folder_ / "removed.stl"), 1000U);
 }
 
+// As `burr export --part added` and `--part pieces` of the same bone: the same bytes.
+TEST_F(Export, WritesWhatWasAddedAndEachPiece) {
+  auto ready = block();
+  ASSERT_TRUE(ready) << ready.error().text;
+  sim::Session& session = *ready->session;
+  rt::ChangedBits& changed = session.bone().add_watcher();
+  mill_in(*ready, {{"the first picture", looks(3),
+                    [] {
+                      press(SDLK_2);
+                      move_to(640, 340);
+                      button(SDL_BUTTON_LEFT, true);
+                    }},
+                   {"something to be added", pressing_until([&changed, bricks = 0]() mutable {
+                      changed.take_all([&bricks](std::size_t) { ++bricks; });
+                      return bricks > 20;
+                    }),
+                    [] {
+                      button(SDL_BUTTON_LEFT, false);
+                      press(SDLK_e);
+                    }},
+                   {"the page", looks(5), [] { choose(kAdded); }},
+                   {"what was added", looks(5), [] { write(); }},
+                   {"the word that it is written", says("added.stl"), [] { press(SDLK_e); }},
+                   {"the page again", looks(5), [] { choose(kPieces); }},
+                   {"the pieces", looks(5), [] { write(); }},
+                   {"the word that they are written", says("piece_1.stl"), [] { press(SDLK_q); }}});
+  ASSERT_GT(session.outcome().ledger.added, 0) << "nothing was added: the test shows nothing";
+  NoProgress quiet;
+  const fs::path truth = folder_ / "truth.stl";
+  const auto before = session.bone_before();
+  ASSERT_TRUE(
+      io::export_part(*before, session.bone(), truth.string(), {.part = io::Part::added}, quiet));
+  EXPECT_TRUE(bytes_of(folder_ / "added.stl") == bytes_of(truth));
+  const auto pieces = write_pieces(
+      session.bone(), (folder_ / "own.stl").string(), {}, [](const std::string&) { return fine(); },
+      quiet);
+  ASSERT_TRUE(pieces) << pieces.error().text;
+  ASSERT_GE(pieces->files.size(), 1U);
+  EXPECT_TRUE(bytes_of(folder_ / "piece_1.stl") == bytes_of(pieces->files.front().path));
+  EXPECT_FALSE(fs::exists(folder_ / numbered("piece.stl", pieces->files.size() + 1)));
+}
+
 TEST_F(Export, AsksBeforeItReplacesAFile) {
   auto ready = block();
   ASSERT_TRUE(ready) << ready.error().text;
   std::ofstream(folder_ / "picture.png") << "mine";
   std::string before;
   mill_in(*ready, {{"the first picture", looks(3), [] { press(SDLK_e); }},
-                   {"the page", looks(5), [] { choose(2); }},
+                   {"the page", looks(5), [] { choose(kPicture); }},
                    {"a picture", looks(5), [] { write(); }},
                    {"the question", looks(20),
                     [&] {
@@ -149,7 +197,7 @@ TEST_F(Export, SaysWhatIsWrongAndOneGoesOn) {
         [&] {
           const rlimit little = {4096, old.rlim_max};
           ::setrlimit(RLIMIT_FSIZE, &little);
-          choose(0);
+          choose(kBone);
         }},
        {"its path anew", looks(5), [] { write(); }},
        {"the sentence about the disk",
@@ -174,9 +222,54 @@ TEST(ExportRequest, KeepsThePathInStepWithWhatIsWritten) {
   EXPECT_EQ(path_for("/a/bone.stl", ExportWhat::picture, ".png"), "/a/picture.png");
   EXPECT_EQ(path_for("/a/petrous.STL", ExportWhat::removed, ".3mf"), "/a/petrous.3mf");
   EXPECT_EQ(path_for("/a.stl/mine", ExportWhat::bone, ".obj"), "/a.stl/mine.obj");
+  EXPECT_EQ(path_for("/a/bone.stl", ExportWhat::added, ".stl"), "/a/added.stl");
+  EXPECT_EQ(path_for("/a/added.stl", ExportWhat::pieces, ".ply"), "/a/piece.ply");
+  EXPECT_EQ(path_for("/a/piece.ply", ExportWhat::bone, ".ply"), "/a/bone.ply");
   EXPECT_EQ(ending_of("x.SEG.NRRD", ExportWhat::bone), ".seg.nrrd");
   EXPECT_EQ(ending_of("x.nrrd", ExportWhat::bone), ".nrrd");
   EXPECT_EQ(ending_of("x.png", ExportWhat::bone), "");
+}
+
+// Variables as a desktop sets them; put back afterwards.
+class DocumentsFolder : public testing::Test {
+ protected:
+  DocumentsFolder() {
+    for (const char* name : kNames) {
+      const char* now = std::getenv(name);
+      before_.emplace_back(now != nullptr ? std::optional<std::string>(now) : std::nullopt);
+      ::unsetenv(name);
+    }
+    ::setenv("HOME", home_.c_str(), 1);
+  }
+  ~DocumentsFolder() override {
+    for (std::size_t n = 0; n < std::size(kNames); ++n)
+      if (before_[n])
+        ::setenv(kNames[n], before_[n]->c_str(), 1);
+      else
+        ::unsetenv(kNames[n]);
+  }
+  static constexpr const char* kNames[] = {"HOME", "XDG_DOCUMENTS_DIR", "XDG_CONFIG_HOME"};
+  std::vector<std::optional<std::string>> before_;
+  const test::Folder own_;
+  const fs::path home_ = own_.path();
+};
+
+TEST_F(DocumentsFolder, IsTheUsersOwnThenTheUsualThenHome) {
+  EXPECT_EQ(documents_folder(), home_);
+  fs::create_directory(home_ / "Documents");
+  EXPECT_EQ(documents_folder(), home_ / "Documents");
+  fs::create_directories(home_ / ".config");
+  std::ofstream(home_ / ".config/user-dirs.dirs")
+      << "# of a Swedish desktop\nXDG_DESKTOP_DIR=\"$HOME/Skrivbord\"\n"
+         "XDG_DOCUMENTS_DIR=\"$HOME/Dokument\"\n";
+  EXPECT_EQ(documents_folder(), home_ / "Documents") << "the one that is named is not there";
+  fs::create_directory(home_ / "Dokument");
+  EXPECT_EQ(documents_folder(), home_ / "Dokument");
+  fs::create_directory(home_ / "mine");
+  ::setenv("XDG_DOCUMENTS_DIR", (home_ / "mine").c_str(), 1);
+  EXPECT_EQ(documents_folder(), home_ / "mine");
+  ::setenv("XDG_DOCUMENTS_DIR", "mine", 1);
+  EXPECT_EQ(documents_folder(), home_ / "Dokument") << "a relative path there is to be ignored";
 }
 
 TEST(ExportRequest, IsRefusedInOneSentence) {

@@ -57,6 +57,26 @@ class MillCases : public testing::Test {
   MillNotes notes_;
 };
 
+// View and tool follow the steps where the mode shows them, or once the user uses them; in an exam never.
+TEST_F(MillCases, FollowsTheStepsWhereTheyAreShownOrUsed) {
+  using record::Mode;
+  for (const Mode mode : {Mode::free, Mode::learn, Mode::practise, Mode::exam}) {
+    MillCase work = made(mode);
+    work.look_at_steps(false);
+    EXPECT_EQ(work.follows(), mode == Mode::learn) << record::word_of(mode);
+    const int turns = work.turns();
+    work.step_done();
+    EXPECT_EQ(work.follows(), mode != Mode::exam) << record::word_of(mode);
+    EXPECT_EQ(work.turns() > turns, mode != Mode::exam) << "another step, another target";
+    MillCase lit = made(mode);
+    lit.look_at_steps(false);
+    const int before = lit.turns();
+    lit.light_target();
+    EXPECT_EQ(lit.follows(), mode != Mode::exam) << record::word_of(mode);
+    EXPECT_EQ(lit.turns() > before, mode != Mode::exam) << "its target is looked for anew";
+  }
+}
+
 TEST_F(MillCases, AnExamRefusesWhatTakesWorkBackAndFreeWorkNothing) {
   const std::vector<Action> back = {Action::back, Action::smooth, Action::undo,
                                     Action::redo, Action::reset,  Action::mirror};

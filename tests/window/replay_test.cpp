@@ -492,9 +492,9 @@ TEST_F(TwoReplays, OfOneSessionHaveTheSameSlices) {
 // ---- films
 
 // the middle of what the export page has, at 1280 x 720
-void click_write() { click(280 + 612, 144 + 310); }
-void click_pictures() { click(280 + 181, 144 + 126); }
-void click_stop() { click(280 + 287, 144 + 310); }
+void click_write() { click(240 + 692, 144 + 310); }
+void click_pictures() { click(240 + 181, 144 + 126); }
+void click_stop() { click(240 + 367, 144 + 310); }
 
 fs::path frame(const fs::path& folder, int number) {
   return folder / fmt::format("frame_{:06d}.png", number);

@@ -122,22 +122,44 @@ scenario::CaseLesson lesson() {
   return *placed;
 }
 
-TEST(Steps, PlacesAndRegionsHaveRings) {
+TEST(Steps, TargetsAndPlacesHaveMarksOfTheirOwn) {
+  using guidance::MarkKind;
   const scenario::CaseLesson all = lesson();
-  const std::vector<guidance::Ring> pit = {
-      {{0, 0, 8e-3}, 4e-3, "pit"}, {{0, 0, 10e-3}, 2e-3, "pit"}, {{0, 0, 20e-3}, 2e-3, ""}};
-  std::vector<guidance::Ring> shown = guidance::rings_of(all.steps[0], all);
+  const std::vector<guidance::StepMark> pit = {{MarkKind::target, {0, 0, 8e-3}, 4e-3, "pit"},
+                                               {MarkKind::target, {0, 0, 10e-3}, 2e-3, ""},
+                                               {MarkKind::target, {0, 0, 20e-3}, 2e-3, ""}};
+  const auto shown = guidance::marks_of(all.steps[0], all, {}, nullptr).marks;
   ASSERT_EQ(shown.size(), 1 + pit.size());
-  EXPECT_EQ(shown[0].name, "entry");
-  EXPECT_LT((shown[0].at - math::Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-12);
-  const std::vector<guidance::Ring> own = guidance::rings_of(all.steps[1], all);
-  ASSERT_EQ(own.size(), pit.size()) << "a step that shows nothing has the rings of its region";
+  EXPECT_EQ(shown.back().name, "entry");
+  EXPECT_EQ(shown.back().kind, MarkKind::place);
+  EXPECT_LT((shown.back().at - math::Vec3(1e-3, 2e-3, 3e-3)).norm(), 1e-12);
+  const auto own = guidance::marks_of(all.steps[1], all, {}, nullptr).marks;
+  ASSERT_EQ(own.size(), pit.size()) << "a step that shows nothing has its region";
   for (std::size_t n = 0; n < pit.size(); ++n) {
     EXPECT_LT((own[n].at - pit[n].at).norm(), 1e-12);
     EXPECT_DOUBLE_EQ(own[n].radius, pit[n].radius);
     EXPECT_EQ(own[n].name, pit[n].name);
-    EXPECT_EQ(own[n].name, shown[n + 1].name);
+    EXPECT_EQ(own[n].kind, pit[n].kind);
+    EXPECT_EQ(own[n].name, shown[n].name);
   }
+}
+
+// The first step shows the nerve; the second spares it. It has another colour then, and is no target.
+TEST(Steps, WhatIsToBeSparedIsNeverShownAsATarget) {
+  scenario::CaseLesson all = lesson();
+  volume::TissueTable table;
+  table.tissues = {{.name = "air"}, {.name = "bone"}, {.name = "nerve"}};
+  all.steps[1] = all.steps[0];
+  all.steps[1].spare = {"nerve"};
+  const auto worked = guidance::marks_of(all.steps[0], all, table, nullptr);
+  EXPECT_EQ(worked.target, std::vector<volume::TissueId>{2});
+  EXPECT_TRUE(worked.spare.empty());
+  const auto spared = guidance::marks_of(all.steps[1], all, table, nullptr);
+  EXPECT_TRUE(spared.target.empty());
+  EXPECT_EQ(spared.spare, std::vector<volume::TissueId>{2});
+  // also where the case, not the step, says that it must stay intact
+  all.structures[0].intact = scenario::Intact::soft;
+  EXPECT_TRUE(guidance::marks_of(all.steps[0], all, table, nullptr).target.empty());
 }
 
 TEST(Steps, TheLitTissueHasItsOwnColourAgainAfterwards) {
@@ -148,7 +170,7 @@ TEST(Steps, TheLitTissueHasItsOwnColourAgainAfterwards) {
   scene.tissue_colours = {{0, 0, 0}, {1, 1, 1}, {1, 1, 0}};
   const auto before = scene.tissue_colours;
   StepLight light;
-  light.on(all.steps[0], all, table, scene);
+  light.on(guidance::marks_of(all.steps[0], all, table, nullptr), scene);
   EXPECT_TRUE(light.is_on());
   EXPECT_EQ(scene.tissue_colours[1], before[1]);
   EXPECT_NE(scene.tissue_colours[2], before[2]);

@@ -42,7 +42,7 @@ TEST(Opening, HoldsAllThatTheStepsOfACaseLight) {
     };
     EXPECT_LT(off_axis(*work->at) + 5e-3, opening->radius);
     for (const scenario::Step& step : lesson->steps)
-      for (const guidance::Ring& ring : guidance::rings_of(step, *lesson)) {
+      for (const guidance::StepMark& ring : guidance::marks_of(step, *lesson, {}, nullptr).marks) {
         // a landmark that is a line may go on under the skin
         const scenario::Landmark* place = lesson->landmark(ring.name);
         if (ring.radius < 1e-3 && (place == nullptr || place->points.size() > 1)) continue;

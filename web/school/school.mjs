@@ -210,8 +210,8 @@ async function learner(id) {
   return out;
 }
 
-const signs = { met: "✓", unmet: "✗", "not assessable": "–" };
-const kinds = { met: "good", unmet: "bad", "not assessable": "none" };
+const signs = { met: "✓", unmet: "✗", "too early": "○", "not assessable": "–" };
+const kinds = { met: "good", unmet: "bad", "too early": "early", "not assessable": "none" };
 const resultWord = result => (signs[result] ?? "") + " " + say(result.replace(" ", "_"));
 
 function evidence(item, session) {
@@ -230,7 +230,8 @@ async function session(id) {
   out.push(el("p", {}, link(to("replay", id), say("replay"))));
   if (all.calibrated < all.items.length) out.push(el("p", { class: "note" }, say("default_note", { n: all.calibrated, of: all.items.length })));
   for (const which of ["product", "process"]) {
-    const items = all.items.filter(item => item.part === which);
+    // what did harm comes first
+    const items = all.items.filter(item => item.part === which).sort((a, b) => Number(b.harm ?? false) - Number(a.harm ?? false));
     if (items.length === 0) continue;
     out.push(el("h2", {}, say(which)));
     out.push(table(say(which), [[say("item")], [say("result")], [say("value"), "number"], [say("threshold"), "number"], [say("self")], [say("evidence")]],

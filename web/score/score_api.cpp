@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "burr/base/progress.h"
-#include "burr/guidance/step_rings.h"
+#include "burr/guidance/step_marks.h"
 #include "burr/guidance/steps.h"
 #include "burr/guidance/suits.h"
 #include "burr/phantom/build.h"
@@ -34,6 +34,7 @@
 #include "burr/scenario/case.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/step_done.h"
+#include "burr/scoring/step_target.h"
 #include "burr/volume/copy_of_bone.h"
 #include "burr/words/anatomy.h"
 #include "burr/words/words.h"
@@ -158,6 +159,7 @@ ordered_json json_of(const report::ReportItem& item) {
   row["id"] = item.id;
   row["text"] = item.text;
   row["gate"] = item.gate;
+  row["harm"] = item.harm;
   row["self"] = json_of(item.self);
   row["machine"] = json_of(item.machine);
   row["figures"] = item.figures;
@@ -182,7 +184,7 @@ ordered_json json_of(const report::Report& report) {
     out["gates"].push_back(
         {{"text", gate.text}, {"when", gate.when}, {"mark", json_of(gate.mark)}});
   }
-  out["held"] = words::say(words::Word::review_gates, held, report.gates.size());
+  out["held"] = words::say(words::Word::review_safety, held, report.gates.size());
   out["parts"] = ordered_json::array();
   for (const report::ReportPart& part : report.parts) {
     ordered_json one = {{"title", part.title}, {"met", part.met}, {"note", part.note}};
@@ -218,6 +220,31 @@ bool mark_recording() {
   if (!made) return failed(made.error());
   course->scored = std::move(*made);
   return make_report();
+}
+
+// A name as the window writes it beside a mark.
+std::string text_of(const guidance::StepMark& mark) {
+  using words::Word;
+  if (mark.name.empty()) return {};
+  const std::string name = words::place_name(mark.name);
+  switch (mark.kind) {
+    case guidance::MarkKind::target:
+      return words::say(Word::mark_target, name);
+    case guidance::MarkKind::plane:
+      return words::say(Word::mark_plane, name);
+    case guidance::MarkKind::spare:
+      return words::say(Word::mark_spare, name);
+    case guidance::MarkKind::place:
+      break;
+  }
+  return name;
+}
+
+ordered_json json_of(const math::Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+ordered_json json_of(guidance::MarkKind kind, const std::vector<volume::TissueId>& tissues) {
+  const guidance::MarkColour colour = guidance::colour_of(kind);
+  return {{"ids", tissues}, {"colour", {colour.red, colour.green, colour.blue}}};
 }
 
 }  // namespace
@@ -267,18 +294,29 @@ EMSCRIPTEN_KEEPALIVE const char* score_choose(int n) {
                                          : guidance::Steps::Events{}));
 }
 
-// What the current step is about, to be lit: {step, rings: [{at [m], radius [m], name}], tissues, colour}; null: nothing may be.
+// What the current step is about, to be shown: {step, marks: [{kind, at [m], radius [m], text}], lines: [[a, b]], tissues:
+// [{ids, colour}]}; null: nothing may be.
 EMSCRIPTEN_KEEPALIVE const char* score_light() {
   const scenario::Step* now = course->steps.now();
   if (now == nullptr || !course->allowed.target) return as_text(nullptr);
   ordered_json out = {{"step", course->steps.id(*course->steps.current())}};
-  out["rings"] = ordered_json::array();
-  for (const guidance::Ring& ring : guidance::rings_of(*now, course->lesson))
-    out["rings"].push_back({{"at", {ring.at.x(), ring.at.y(), ring.at.z()}},
-                            {"radius", ring.radius},
-                            {"name", ring.name.empty() ? "" : words::place_name(ring.name)}});
-  out["tissues"] = guidance::lit_tissues(*now, course->lesson, course->now->tissues());
-  out["colour"] = guidance::kLitColour;
+  NoProgress quiet;
+  scoring::TargetFinder finder(*course->before, course->lesson, quiet);
+  constexpr double kAnyBurr = 1e-3;  // its room is not asked for
+  const auto target = finder.find(*now, *course->now, kAnyBurr);
+  const guidance::StepMarks marks =
+      guidance::marks_of(*now, course->lesson, course->now->tissues(), target ? &*target : nullptr);
+  out["marks"] = ordered_json::array();
+  for (const guidance::StepMark& mark : marks.marks)
+    out["marks"].push_back({{"kind", guidance::word_of(mark.kind)},
+                            {"at", json_of(mark.at)},
+                            {"radius", mark.radius},
+                            {"text", text_of(mark)}});
+  out["lines"] = ordered_json::array();
+  for (const auto& line : marks.outline)
+    out["lines"].push_back({json_of(line[0]), json_of(line[1])});
+  out["tissues"] = {json_of(guidance::MarkKind::target, marks.target),
+                    json_of(guidance::MarkKind::spare, marks.spare)};
   return as_text(out);
 }
 

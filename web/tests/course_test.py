@@ -221,15 +221,16 @@ def guidance(page):
     press(page, "a")
     page.wait("burr.course.lit !== null", WAIT)
     lit = page.run("burr.course.lit")
-    check(lit["step"] == page.run("burr.course.steps.now.id") and (lit["rings"] or lit["tissues"]),
-          f"key A lights the target: {len(lit['rings'])} rings, tissues {lit['tissues']}")
+    check(lit["step"] == page.run("burr.course.steps.now.id") and (lit["marks"] or lit["lines"]),
+          f"key A lights the target: {len(lit['marks'])} marks, tissues {lit['tissues']}")
     page.wait("burr.refined()", WAIT)
-    shown = page.run("[...document.querySelectorAll('#light circle')].map((one) => [+one.getAttribute('cx'), +one.getAttribute('cy'), +one.getAttribute('r')])")
-    check(len(shown) == len(lit["rings"]) and all(0 < x < 960 and 0 < y < 540 and r >= 6 for x, y, r in shown), f"the rings are in the picture: {shown}")
+    shown = page.run("[...document.querySelectorAll('#light path')].map((one) => { const {x, y, width, height} = one.getBoundingClientRect(); return [x + width / 2, y + height / 2, Math.max(width, height) / 2, one.getAttribute('class')]; })")
+    check(len(shown) == len(lit["marks"]) and all(0 < x < 960 and 0 < y < 540 and r >= 6 for x, y, r, _ in shown), f"the marks are in the picture: {shown}")
+    check("target" in {kind for *_, kind in shown}, "and a target is among them")
     check(page.run("document.getElementById('step_light').textContent") == spoken["steps_unlight"].replace("{}", "A"), "the button puts it out")
     keep(page, "lit")
     page.run("document.getElementById('step_light').click()")
-    check(page.run("burr.course.lit === null && document.querySelectorAll('#light circle').length === 0"), "and it is out")
+    check(page.run("burr.course.lit === null && document.querySelectorAll('#light path').length === 0"), "and it is out")
     page.wait("burr.watch.found", WAIT)
     check(page.run("!document.getElementById('near').hidden && document.getElementById('near_title').textContent !== ''"),
           f"the figure: {page.run('document.getElementById(`near`).textContent')}")

@@ -60,7 +60,8 @@ Result<std::pair<std::string, std::string>> pair_of(const char* option, const st
 }
 
 std::string mark_of(const std::string& word) {
-  return word == "not-assessable" ? "not assessable" : word;
+  if (word == "not-assessable") return "not assessable";
+  return word == "not-met" || word == "not met" ? "unmet" : word;  // as the store has it
 }
 
 // ---- the queue
@@ -274,7 +275,7 @@ void add(CLI::App& app, Todo& todo) {
       ->capture_default_str();
   command->add_option("--session", options->session, "this one; alone: lists its items");
   command->add_option("--mark", options->marks,
-                      "ITEM=met, ITEM=unmet or ITEM=not-assessable; can be repeated");
+                      "ITEM=met, ITEM=not-met or ITEM=not-assessable; can be repeated");
   command->add_option("--reason", options->reasons, "ITEM=WHY, one line; can be repeated");
   command->add_option("--from", options->from,
                       "F.csv: columns session, item, mark [, reason]; many marks at once");

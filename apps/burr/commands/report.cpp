@@ -94,14 +94,15 @@ void print_comparison(const report::Scored& a, const report::Scored& b) {
   fmt::print("{}, version {}\n  {:<26}  {:<26}  {}\n", base::printable(rubric.name), rubric.version,
              "", "A", "B");
   const auto cell = [](const scoring::Outcome& outcome) {
-    std::string text = scoring::word_of(outcome.verdict);
+    std::string text = scoring::word_of(scoring::standing_of(outcome));
     if (outcome.value) text += " (" + scoring::text_of(outcome.quantity, *outcome.value) + ")";
     return text;
   };
   for (std::size_t n = 0; n < rubric.items.size(); ++n) {
     const scoring::Outcome &first = a.score.outcomes[n], &second = b.score.outcomes[n];
-    fmt::print("{} {:<26}  {:<26}  {}\n", first.verdict == second.verdict ? " " : "*",
-               base::printable(rubric.items[n].id), cell(first), cell(second));
+    const bool same = scoring::standing_of(first) == scoring::standing_of(second);
+    fmt::print("{} {:<26}  {:<26}  {}\n", same ? " " : "*", base::printable(rubric.items[n].id),
+               cell(first), cell(second));
   }
   for (const auto& [name, one] : {std::pair{"A", &a}, std::pair{"B", &b}})
     for (const std::string& line :

@@ -52,9 +52,8 @@ void print_items(const scoring::Rubric& rubric, const scoring::Score& score) {
                      [&](const auto& item) { return item.part == part; }))
       continue;
     fmt::print("{}\n", scoring::word_of(part));
-    for (std::size_t n = 0; n < rubric.items.size(); ++n)
-      if (rubric.items[n].part == part)
-        fmt::print("{}\n", report::item_line(rubric.items[n], score.outcomes[n]));
+    for (const std::size_t n : scoring::in_order(rubric, score.outcomes, part))
+      fmt::print("{}\n", report::item_line(rubric.items[n], score.outcomes[n]));
   }
 }
 
@@ -109,13 +108,13 @@ Status run_score(const Options& options, CommandResult* given) {
     fmt::print("{}\n", report::explanation(*wanted, score.outcomes[at], player.info().rate_hz));
   } else {
     fmt::print("{}, version {}\n", base::printable(rubric.name), rubric.version);
+    if (const std::string safety = report::safety_line(rubric, score); !safety.empty())
+      fmt::print("{}\n", safety);
     print_items(rubric, score);
     for (const std::string& line :
          {report::total_line(rubric, scoring::Part::product, score.product),
           report::total_line(rubric, scoring::Part::process, score.process)})
       if (!line.empty()) fmt::print("{}\n", line);
-    if (const std::string gates = report::gate_line(rubric, score); !gates.empty())
-      fmt::print("{}\n", gates);
     fmt::print("{}: {}; {:.0f} % of the bone that the case says to remove is gone\n",
                score.unfinished ? "unfinished" : "finished", score.ending, 100 * score.worked);
     if (!made->pieces.empty())

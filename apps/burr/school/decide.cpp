@@ -25,8 +25,8 @@ std::string words_of(const school::Proposal& of, const school::Standard& standar
                         of.first + school::kInARow, of.sessions.size())
           : fmt::format("proposal: not reached in {}", counted(of.sessions.size(), "session"));
   out += fmt::format(
-      " ({} sessions one after the other with {:.4g} points or more and no gate "
-      "broken)",
+      " ({} sessions one after the other with {:.4g} points or more and no item of safety that is "
+      "not met)",
       school::kInARow, standard.cut);
   if (static_cast<std::int64_t>(of.sessions.size()) < school::kNeeded)
     out += fmt::format("; {} of {} sessions without guidance: little can be said",

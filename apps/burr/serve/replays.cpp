@@ -129,7 +129,7 @@ Json line_of(const record::Timeline& line) {
 Json lost_of(const report::Scored& scored) {
   Json out = Json::array();
   for (std::size_t n = 0; n < scored.judged.rubric.items.size(); ++n) {
-    if (scored.score.outcomes[n].verdict != scoring::Verdict::unmet) continue;
+    if (scoring::standing_of(scored.score.outcomes[n]) != scoring::Standing::not_met) continue;
     const report::Evidence seen = report::evidence_of(scored, n);
     if (!seen.at_s) continue;
     out.push_back(

@@ -249,7 +249,14 @@ Json item_of(const school::ItemRow& item, std::map<std::string, Json>& words, in
                                                 ? shown(evidence, item.threshold).get<std::string>()
                                                 : fmt::format("{:.3g}", *item.threshold)))
                                     : Json(nullptr);
-  out["gate"] = evidence.value("gate", false);
+  const bool gate = evidence.value("gate", false);
+  out["gate"] = gate;
+  if (item.result == "unmet") {
+    const auto* measure = scoring::measure_named(evidence.value("measure", std::string()));
+    const bool earned = evidence.value("earned", true);
+    if (!earned) out["result"] = "too early";
+    out["harm"] = earned && (gate || (measure != nullptr && measure->guards));
+  }
   out["borderline"] = evidence.value("borderline", false);
   out["reason"] = evidence.value("reason", std::string());
   if (evidence.contains("at_s")) out["evidence"].push_back(evidence["at_s"]);

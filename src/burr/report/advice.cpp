@@ -45,7 +45,11 @@ std::vector<std::size_t> by_importance(const Scored& scored, const SelfMarks& se
     const bool unmet = outcome.verdict == Verdict::unmet;
     const bool follows = unmet && outcome.earned && !outcome.reason.empty();
     if (!outcome.earned || follows || (!unmet && !outcome.borderline)) continue;
-    const int rank = !unmet ? 3 : item.gate ? 0 : marked_met(self, item.id) ? 1 : 2;
+    const int rank = !unmet                             ? 4
+                     : item.gate                        ? 0
+                     : scoring::did_harm(item, outcome) ? 1
+                     : marked_met(self, item.id)        ? 2
+                                                        : 3;
     ranked.push_back({{rank, -distance_of(outcome)}, n});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
@@ -57,17 +61,22 @@ std::vector<std::size_t> by_importance(const Scored& scored, const SelfMarks& se
 
 std::vector<ReportAdvice> advice(const Scored& scored, const SelfMarks& self) {
   std::vector<ReportAdvice> out;
-  if (scored.score.worked < metrics::kLeastWork)
-    out.push_back({say(Word::report_next_go_on, 100 * scored.score.worked), ""});
+  bool goes_on = scored.score.worked < metrics::kLeastWork;
+  const auto go_on = [&] {
+    if (std::exchange(goes_on, false))
+      out.push_back({say(Word::report_next_go_on, 100 * scored.score.worked), ""});
+  };
   for (const std::size_t n : by_importance(scored, self)) {
-    if (out.size() >= kMostAdvice) break;
     const scoring::Item& item = scored.judged.rubric.items[n];
     const Outcome& outcome = scored.score.outcomes[n];
+    if (!scoring::did_harm(item, outcome)) go_on();  // who did harm reads of that first
+    if (out.size() >= kMostAdvice) break;
     if (outcome.verdict != Verdict::unmet) continue;
     std::string why = figures_of(outcome) + ".";
     if (marked_met(self, item.id)) why += std::string(" ") + word(Word::report_next_you_met);
     out.push_back({item.say.in(spoken().code), std::move(why)});
   }
+  if (out.size() < kMostAdvice) go_on();
   return out;
 }
 
@@ -77,7 +86,7 @@ std::string agreement(const Scored& scored, const SelfMarks& self) {
   for (const Outcome& outcome : scored.score.outcomes) {
     const auto mark = self.find(outcome.id);
     if (mark == self.end() || mark->second == SelfMark::unknown ||
-        outcome.verdict == Verdict::not_assessable)
+        outcome.verdict == Verdict::not_assessable || !outcome.earned)
       continue;
     const bool mine = mark->second == SelfMark::met, its = outcome.verdict == Verdict::met;
     ++both;

@@ -16,12 +16,12 @@ namespace burr::report {
 
 inline constexpr std::size_t kMostAdvice = 3;
 
-// Items that are unmet or borderline, by their number in the rubric. First gates that were not held,
-// then those that the learner marked as met, then the others, the farthest from their threshold
-// first. Left out: what was not earned, and what only follows from another unmet item.
+// Items that are not met or borderline, by their number in the rubric. First items of safety, then the
+// others that did harm, then those that the learner marked as met, then the rest, the farthest from
+// their threshold first. Left out: what it is too early to say, and what only follows from another item.
 [[nodiscard]] std::vector<std::size_t> by_importance(const Scored& scored, const SelfMarks& self);
 
-// At most kMostAdvice. First of all, if it applies, that too little was removed.
+// At most kMostAdvice. After what did harm, if it applies, that too little was removed.
 [[nodiscard]] std::vector<ReportAdvice> advice(const Scored& scored, const SelfMarks& self);
 
 [[nodiscard]] std::string agreement(const Scored& scored, const SelfMarks& self);

@@ -33,7 +33,6 @@ namespace {
 
 using record::CourseKind;
 using scoring::Part;
-using scoring::Verdict;
 
 std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
@@ -94,20 +93,27 @@ std::vector<TextPair> head_of(const Scored& scored) {
   return rows;
 }
 
+// What did harm comes first.
 std::vector<ReportGate> gates_of(const Scored& scored, const Scored* beside) {
   std::vector<ReportGate> gates;
   const scoring::Rubric& rubric = scored.judged.rubric;
-  for (std::size_t n = 0; n < rubric.items.size(); ++n) {
+  std::vector<std::size_t> numbers = in_order(rubric, scored.score.outcomes, Part::product);
+  for (const std::size_t n : in_order(rubric, scored.score.outcomes, Part::process))
+    numbers.push_back(n);
+  std::stable_partition(numbers.begin(), numbers.end(), [&](std::size_t n) {
+    return scoring::did_harm(rubric.items[n], scored.score.outcomes[n]);
+  });
+  for (const std::size_t n : numbers) {
     const scoring::Item& item = rubric.items[n];
     const scoring::Outcome& outcome = scored.score.outcomes[n];
     if (!item.gate) continue;
     ReportGate& gate = gates.emplace_back();
     gate.text = item.say.in(spoken().code);
-    gate.mark = gate_mark(outcome);
+    gate.mark = mark_of(outcome);
     if (gate.mark.tone == Tone::bad && outcome.tick)
       gate.when = fmt::format(
           "{:.1f} s", static_cast<double>(*outcome.tick) / scored.judged.player->info().rate_hz);
-    if (beside != nullptr) gate.beside = gate_mark(beside->score.outcomes[n]);
+    if (beside != nullptr) gate.beside = mark_of(beside->score.outcomes[n]);
   }
   return gates;
 }
@@ -115,6 +121,7 @@ std::vector<ReportGate> gates_of(const Scored& scored, const Scored* beside) {
 std::string met_of(const scoring::Total& total) {
   if (total.assessable == 0) return say(Word::report_none_open, total.items);
   std::string text = say(Word::report_met, total.met, total.assessable);
+  if (total.too_early > 0) text += ", " + say(Word::report_more_early, total.too_early);
   if (total.items > total.assessable)
     text += ", " + say(Word::report_more_open, total.items - total.assessable);
   return text;
@@ -162,7 +169,8 @@ ReportItem item_of(const Scored& scored, std::size_t n, const ReportSettings& se
   out.place = seen.place;
   out.at_s = seen.at_s;
   out.at_end = seen.at_end;
-  out.machine = mark_of(item, outcome);
+  out.harm = scoring::did_harm(item, outcome);
+  out.machine = mark_of(outcome);
   if (const auto self = settings.self.find(item.id); self != settings.self.end())
     out.self = mark_of(self->second);
   out.figures = figures_of(outcome);
@@ -170,12 +178,12 @@ ReportItem item_of(const Scored& scored, std::size_t n, const ReportSettings& se
   out.scale = scale_of(outcome);
   out.strip = strip_of(scored, n);
   if (settings.beside != nullptr) {
-    out.beside = mark_of(item, settings.beside->score.outcomes[n]);
+    out.beside = mark_of(settings.beside->score.outcomes[n]);
     out.beside_figures = figures_of(settings.beside->score.outcomes[n]);
   }
   if (outcome.borderline) out.remarks.emplace_back(word(Word::report_borderline));
   if (std::string why = reason_of(item, outcome); !why.empty()) out.remarks.push_back(why);
-  if (outcome.verdict == Verdict::unmet && outcome.earned) {
+  if (scoring::standing_of(outcome) == scoring::Standing::not_met) {
     if (outcome.tick) out.remarks.push_back(moment_words(scored, *outcome.tick));
     out.remarks.push_back(measure_word(item.how->name));
   }
@@ -195,8 +203,8 @@ std::vector<ReportPart> parts_of(const Scored& scored, const ReportSettings& set
     out.met = met_of(total_of(scored.score));
     out.note = note_of(rubric, part, total_of(scored.score));
     if (settings.beside != nullptr) out.beside_met = met_of(total_of(settings.beside->score));
-    for (std::size_t n = 0; n < rubric.items.size(); ++n)
-      if (rubric.items[n].part == part) out.items.push_back(item_of(scored, n, settings));
+    for (const std::size_t n : in_order(rubric, scored.score.outcomes, part))
+      out.items.push_back(item_of(scored, n, settings));
   }
   return parts;
 }
@@ -359,7 +367,9 @@ Result<Report> report_on(Scored& scored, const ReportSettings& settings, Progres
   report.has_self = !settings.self.empty();
   report.self = agreement(scored, settings.self);
   report.next = advice(scored, settings.self);
-  if (report.next.empty()) report.nothing_next = word(Word::report_next_none);
+  const std::size_t early = scored.score.product.too_early + scored.score.process.too_early;
+  if (report.next.empty())
+    report.nothing_next = word(early > 0 ? Word::report_next_early : Word::report_next_none);
   const std::string file = name_of(scored.judged.player->path());
   report.commands = {fmt::format("burr score {}{}", file, with_rubric(settings))};
   std::string mine;

@@ -51,8 +51,9 @@ struct ReportStrip {
 };
 
 struct ReportItem {
-  std::string id, text;  // text: what is to be done
-  bool gate = false;
+  std::string id, text;             // text: what is to be done
+  bool gate = false;                // an item of safety
+  bool harm = false;                // it is not met, and that did harm: such items come first
   std::optional<double> at_s;       // when the evidence is seen best; none: it cannot be seen
   bool at_end = false;              // that is the end of the session
   std::optional<math::Vec3> place;  // of it: world, LPS [m]
@@ -68,12 +69,13 @@ struct ReportItem {
 
 struct ReportPart {
   std::string title;  // "Product: the bone at the end"
-  std::string met;    // "3 of 26 items met, 1 more not assessable"
+  std::string met;    // "3 of 26 items met, 5 too early to say, 1 more not assessable"
   std::string note;   // points, or that the thresholds are defaults
   std::string beside_met;
   std::vector<ReportItem> items;
 };
 
+// An item of safety.
 struct ReportGate {
   std::string text, when;  // when: "12.3 s"; empty: no moment
   ReportMark mark, beside;
@@ -121,9 +123,9 @@ using Legend = std::vector<TextPair>;
 struct Report {
   std::string title, language;  // language: "en"
   std::string no_patient;
-  std::string unfinished;      // a sentence; empty: declared done
-  std::vector<TextPair> head;  // "Case", "Mastoidectomy"
-  std::vector<ReportGate> gates;
+  std::string unfinished;         // a sentence; empty: declared done
+  std::vector<TextPair> head;     // "Case", "Mastoidectomy"
+  std::vector<ReportGate> gates;  // what did harm comes first
   std::vector<ReportPart> parts;  // product, process
   std::string self;               // agreement with the learner's own marks, or that there are none
   std::vector<ReportAdvice> next;

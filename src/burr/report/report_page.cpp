@@ -66,7 +66,7 @@ const char* sign_of(Tone tone) {
     case Tone::open:
       return "○ ";
     case Tone::none:
-      return "";
+      return "– ";
   }
   return "";
 }

@@ -15,7 +15,7 @@ using words::word;
 
 namespace {
 
-using scoring::Verdict;
+using scoring::Standing;
 
 constexpr std::array kValues = {
     Word::what_seen,      Word::what_bare,        Word::what_even,       Word::what_lost,
@@ -71,13 +71,15 @@ constexpr std::array<std::pair<std::string_view, Word>, 39> kMeasures = {
      {"motor_load", Word::explain_motor_load},
      {"reaction", Word::explain_reaction}}};
 
-const char* verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::met:
+const char* standing_word(Standing standing) {
+  switch (standing) {
+    case Standing::met:
       return word(Word::report_verdict_met);
-    case Verdict::unmet:
+    case Standing::not_met:
       return word(Word::report_verdict_unmet);
-    case Verdict::not_assessable:
+    case Standing::too_early:
+      return word(Word::report_verdict_early);
+    case Standing::not_assessable:
       return word(Word::report_verdict_open);
   }
   return "";
@@ -130,23 +132,12 @@ std::string mode_word(record::Mode mode) {
 }
 
 ReportMark mark_of(const scoring::Outcome& outcome) {
-  const Tone tone = outcome.verdict == Verdict::met     ? Tone::good
-                    : outcome.verdict == Verdict::unmet ? Tone::bad
-                                                        : Tone::open;
-  return {verdict_word(outcome.verdict), tone};
-}
-
-ReportMark gate_mark(const scoring::Outcome& outcome) {
-  if (outcome.verdict == Verdict::met) return {word(Word::report_gate_held), Tone::good};
-  if (outcome.verdict == Verdict::not_assessable)
-    return {word(Word::report_verdict_open), Tone::open};
-  if (!outcome.earned) return {word(Word::report_gate_unearned), Tone::open};
-  return {word(Word::report_gate_broken), Tone::bad};
-}
-
-ReportMark mark_of(const scoring::Item& item, const scoring::Outcome& outcome) {
-  const bool unearned = item.gate && outcome.verdict == Verdict::unmet && !outcome.earned;
-  return unearned ? gate_mark(outcome) : mark_of(outcome);
+  const Standing standing = scoring::standing_of(outcome);
+  const Tone tone = standing == Standing::met         ? Tone::good
+                    : standing == Standing::not_met   ? Tone::bad
+                    : standing == Standing::too_early ? Tone::open
+                                                      : Tone::none;
+  return {standing_word(standing), tone};
 }
 
 ReportMark mark_of(SelfMark mark) {
@@ -156,7 +147,7 @@ ReportMark mark_of(SelfMark mark) {
     case SelfMark::unmet:
       return {word(Word::report_verdict_unmet), Tone::bad};
     case SelfMark::unknown:
-      return {word(Word::report_self_unknown), Tone::open};
+      return {word(Word::report_self_unknown), Tone::none};
   }
   return {};
 }
@@ -175,7 +166,7 @@ std::string reason_of(const scoring::Item& item, const scoring::Outcome& outcome
   if (outcome.reason.empty()) return {};
   if (!outcome.earned) return word(Word::report_unearned);
   if (!item.needs.empty() && outcome.reason.find('"' + item.needs + '"') != std::string::npos)
-    return say(Word::report_requires, item.needs, verdict_word(outcome.verdict));
+    return say(Word::report_requires, item.needs, standing_word(scoring::standing_of(outcome)));
   return sentence(outcome.reason);
 }
 

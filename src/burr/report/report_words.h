@@ -20,12 +20,8 @@ namespace burr::report {
 // One sentence on what the measure means; empty for a measure that is not known here.
 [[nodiscard]] std::string measure_word(std::string_view measure);
 [[nodiscard]] std::string mode_word(record::Mode mode);
+// Met, not met, too early to say; or not assessable. The same words in every list of a report.
 [[nodiscard]] ReportMark mark_of(const scoring::Outcome& outcome);
-// Among the gates: held, not held, not earned.
-[[nodiscard]] ReportMark gate_mark(const scoring::Outcome& outcome);
-// In the list of items, where a gate that was not earned reads as among the gates: nothing was done
-// wrong.
-[[nodiscard]] ReportMark mark_of(const scoring::Item& item, const scoring::Outcome& outcome);
 [[nodiscard]] ReportMark mark_of(SelfMark mark);
 // "share removed 12 % (error 3 %), at least 80 %"; empty: there is no number.
 [[nodiscard]] std::string figures_of(const scoring::Outcome& outcome);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -17,7 +18,6 @@ constexpr std::size_t kText = 600;  // bytes of a text for people; a name has fe
 using scoring::Item;
 using scoring::Outcome;
 using scoring::Part;
-using scoring::Verdict;
 
 std::string default_word(const Item& item) { return item.calibrated ? "" : " (default)"; }
 
@@ -40,6 +40,8 @@ nlohmann::ordered_json json_of(const Item& item, const Outcome& outcome) {
   row["weight"] = item.weight;
   row["gate"] = item.gate;
   row["verdict"] = scoring::word_of(outcome.verdict);
+  row["outcome"] = scoring::word_of(scoring::standing_of(outcome));
+  row["harm"] = scoring::did_harm(item, outcome);
   if (outcome.verdict != scoring::Verdict::not_assessable)
     row["credit"] = scoring::credit_of(item, outcome);
   row["borderline"] = outcome.borderline;
@@ -63,6 +65,7 @@ nlohmann::ordered_json json_of(const scoring::Total& total) {
   nlohmann::ordered_json row;
   row["points"] = total.points ? nlohmann::ordered_json(*total.points) : nullptr;
   row["met"] = total.met;
+  row["too_early"] = total.too_early;
   row["assessable"] = total.assessable;
   row["items"] = total.items;
   row["not_assessable_weight_share"] = total.not_assessable;
@@ -74,16 +77,17 @@ nlohmann::ordered_json json_of(const scoring::Total& total) {
 std::string item_line(const Item& item, const Outcome& outcome) {
   std::string text = joined(figures(item, outcome), outcome.reason);
   if (outcome.borderline) text = joined(text, "borderline, a person should look");
-  return fmt::format("  {:<14}  {:<26}  {}", scoring::word_of(outcome.verdict),
+  return fmt::format("  {:<16}  {:<26}  {}", scoring::word_of(scoring::standing_of(outcome)),
                      base::printable(item.id), text);
 }
 
 std::string total_line(const scoring::Rubric& rubric, Part part, const scoring::Total& total) {
   const std::string items =
       fmt::format("{}: {} of {} items met", scoring::word_of(part), total.met, total.assessable);
-  const std::string open = total.items > total.assessable
-                               ? fmt::format(", {} not assessable", total.items - total.assessable)
-                               : "";
+  std::string open =
+      total.too_early > 0 ? fmt::format(", {} too early to say", total.too_early) : "";
+  if (total.items > total.assessable)
+    open += fmt::format(", {} not assessable", total.items - total.assessable);
   if (total.items == 0) return {};
   const bool calibrated =
       std::all_of(rubric.items.begin(), rubric.items.end(),
@@ -97,33 +101,34 @@ std::string total_line(const scoring::Rubric& rubric, Part part, const scoring::
       items, open, 100 * total.not_assessable, 100 * scoring::kMostUnknown);
 }
 
-std::string gate_line(const scoring::Rubric& rubric, const scoring::Score& score) {
-  std::size_t gates = 0, held = 0;
-  std::string broken, idle, unknown;
+std::string safety_line(const scoring::Rubric& rubric, const scoring::Score& score) {
+  using scoring::Standing;
+  std::size_t all = 0, met = 0;
+  std::map<Standing, std::string> lists;
   for (std::size_t n = 0; n < rubric.items.size(); ++n) {
     const Item& item = rubric.items[n];
     if (!item.gate) continue;
-    ++gates;
-    const Verdict verdict = score.outcomes[n].verdict;
-    if (verdict == Verdict::met) ++held;
-    std::string& list = verdict == Verdict::not_assessable ? unknown
-                        : score.outcomes[n].earned         ? broken
-                                                           : idle;
-    if (verdict != Verdict::met) list += (list.empty() ? "" : ", ") + base::printable(item.id);
+    ++all;
+    const Standing standing = scoring::standing_of(score.outcomes[n]);
+    if (standing == Standing::met) {
+      ++met;
+      continue;
+    }
+    std::string& list = lists[standing];
+    list += (list.empty() ? "" : ", ") + base::printable(item.id);
   }
-  if (gates == 0) return {};
-  std::string text = fmt::format("gates: {} of {} held", held, gates);
-  if (!broken.empty()) text += "; not held: " + broken;
-  if (!idle.empty()) text += "; not earned: " + idle;
-  if (!unknown.empty()) text += "; not assessable: " + unknown;
+  if (all == 0) return {};
+  std::string text = fmt::format("safety: {} of {} items met", met, all);
+  for (const auto& [standing, list] : lists)
+    text += fmt::format("; {}: {}", scoring::word_of(standing), list);
   return text;
 }
 
 std::string explanation(const Item& item, const Outcome& outcome, double rate_hz) {
-  std::string text =
-      fmt::format("{}\n  {}\n  {}", base::printable(item.id),
-                  base::printable(item.say.in("en"), kText), scoring::word_of(outcome.verdict));
-  if (item.gate) text += ", a gate";
+  std::string text = fmt::format("{}\n  {}\n  {}", base::printable(item.id),
+                                 base::printable(item.say.in("en"), kText),
+                                 scoring::word_of(scoring::standing_of(outcome)));
+  if (item.gate) text += ", an item of safety";
   if (outcome.borderline) text += ", borderline: a person should look";
   if (!outcome.reason.empty()) text += "\n  why: " + base::printable(outcome.reason, kText);
   text += fmt::format("\n  measure: {} ({}; docs/teach/metrics.md)", item.how->name,

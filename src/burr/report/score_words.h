@@ -1,6 +1,6 @@
 // report/score_words.h - a score in words and in JSON.
 //
-// No grade, no pass: items, gates, totals, and "default" beside every threshold that nobody has
+// No grade, no pass: items, safety, totals, and "default" beside every threshold that nobody has
 // compared with people.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace burr::report {
 
-// "  unmet           sinus.identified   share seen through thin bone 12 %, required at least 60 % (default)"
+// "  not met           sinus.identified   share seen through thin bone 12 %, required at least 60 % (default)"
 [[nodiscard]] std::string item_line(const scoring::Item& item, const scoring::Outcome& outcome);
 
 // "product: 7 of 25 items met". Points follow only where every item of the part is calibrated; or why
@@ -20,8 +20,8 @@ namespace burr::report {
 [[nodiscard]] std::string total_line(const scoring::Rubric& rubric, scoring::Part part,
                                      const scoring::Total& total);
 
-// The gates that hold and those that do not, in one line; empty: the rubric has none.
-[[nodiscard]] std::string gate_line(const scoring::Rubric& rubric, const scoring::Score& score);
+// How many items of safety (gates) are met and which are not, in one line; empty: the rubric has none.
+[[nodiscard]] std::string safety_line(const scoring::Rubric& rubric, const scoring::Score& score);
 
 // All that is known about one item, several lines. rate_hz: of the recording, for its moments.
 [[nodiscard]] std::string explanation(const scoring::Item& item, const scoring::Outcome& outcome,

@@ -19,7 +19,7 @@ constexpr std::size_t kLargestMarks = 1 << 20;  // bytes
 
 std::optional<SelfMark> self_mark_of(std::string_view word) {
   if (word == "met") return SelfMark::met;
-  if (word == "unmet") return SelfMark::unmet;
+  if (word == "not met" || word == "unmet") return SelfMark::unmet;  // "unmet": in recordings
   if (word == "unknown") return SelfMark::unknown;
   return std::nullopt;
 }
@@ -60,7 +60,7 @@ Result<SelfMarks> parse_self_marks(std::string_view text, std::string_view file,
     }
     const auto word = node.value_exact<std::string>();
     const auto mark = word ? self_mark_of(*word) : std::nullopt;
-    if (!mark) return wrong(node, id, R"(must be "met", "unmet" or "unknown")");
+    if (!mark) return wrong(node, id, R"(must be "met", "not met" or "unknown")");
     out[id] = *mark;
   }
   return out;

@@ -2,7 +2,7 @@
 //
 //     # marks.toml
 //     [marks]
-//     "sinus.identified" = "met"        # or "unmet", "unknown"
+//     "sinus.identified" = "met"        # or "not met", "unknown"
 //
 // Thread: any. Errors: one sentence with file, line, field and remedy.
 #pragma once

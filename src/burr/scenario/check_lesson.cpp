@@ -101,7 +101,7 @@ class Checker {
       if (!one.structure.empty()) structure(one.line, "step.structure", one.structure);
       if (!one.region.empty()) region(one.line, "step.region", one.region);
       for (const std::string& name : one.spare) {
-        structure(one.line, "step.spare", name);
+        if (!regions_.contains(name)) structure(one.line, "step.spare", name);
         if (const auto at = structures_.find(name);
             at != structures_.end() && lesson_.structures[at->second].glass)
           reader_.fail_at(one.line, "step.spare",

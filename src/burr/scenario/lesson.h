@@ -120,13 +120,13 @@ struct DoneWhen {
 struct Step {
   std::string id;
   Texts title, say;
-  std::string structure, region;          // what is worked on, and where; empty: not said
-  std::vector<std::string> spare;         // names of structures
-  std::string tool;                       // that suits, of the rack; empty: the round burr
-  std::optional<tool::BurrKind> kind;     // of the round burr that suits
-  std::optional<Range> diameter;          // [m]
-  std::vector<math::Vec3> approach;       // unit, to the surgeon; empty: that of the lesson
-  std::vector<std::string> show;          // structures, regions or landmarks to be lit on demand
+  std::string structure, region;       // what is worked on, and where; empty: not said
+  std::vector<std::string> spare;      // names of structures, or of regions that no burr is to cut
+  std::string tool;                    // that suits, of the rack; empty: the round burr
+  std::optional<tool::BurrKind> kind;  // of the round burr that suits
+  std::optional<Range> diameter;       // [m]
+  std::vector<math::Vec3> approach;    // unit, to the surgeon; empty: that of the lesson
+  std::vector<std::string> show;       // structures, regions or landmarks to be lit on demand
   std::vector<std::string> must_precede;  // ids of steps
   std::optional<DoneWhen> done;           // none: only the user says so
   bool adds = false;                      // the region is filled with material, not cut away

@@ -66,7 +66,7 @@ Status check_marks(Store& store, const Marking& marking) {
                                base::printable(one.item), base::list_of(known)));
     if (std::find(std::begin(kMarkWords), std::end(kMarkWords), one.mark) == std::end(kMarkWords))
       return error(Trouble::usage,
-                   fmt::format("{}: mark \"{}\": use met, unmet or \"not assessable\"",
+                   fmt::format("{}: mark \"{}\": use met, \"not met\" or \"not assessable\"",
                                base::printable(one.item), base::printable(one.mark)));
     if (const Status good = check_reason(one.reason); !good) return good;
     if (!marked.insert(one.item).second)

@@ -197,7 +197,7 @@ Outcome filled(const Item& item, Workpiece& scene, bool inside) {
   Outcome out =
       decided(item, metrics::intact_mark(full->stray, share, full->stray_error, full->share),
               "share of what was added that lies beside the gap", false);
-  if (!out.earned) out.reason = "too little was added to earn it";
+  if (!out.earned) out.reason = "too little was added to say";
   return out;
 }
 
@@ -229,7 +229,7 @@ Outcome decided(const Item& item, const metrics::Mark& mark, const char* what, b
   const bool good = at_least ? mark.value >= mark.threshold : mark.value <= mark.threshold;
   out.earned = mark.earned || !good;
   out.borderline = mark.earned && mark.borderline();
-  if (!out.earned) out.reason = "too little was removed to earn it";
+  if (!out.earned) out.reason = "too little was removed to say";
   out.what = what;
   out.quantity = item.how->quantity;
   out.at_least = at_least;

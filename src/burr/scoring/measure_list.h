@@ -45,6 +45,7 @@ struct Measure {
   bool along = false;     // the item may name a curve among the landmarks
   bool on_curve = false;  // it must
   bool on_plane = false;  // it must name a plane among the landmarks
+  bool guards = false;    // it judges what must stay as it was: who does not meet it did harm
   std::vector<Limit> limits = {};
 };
 

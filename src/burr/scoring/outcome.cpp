@@ -18,7 +18,7 @@ void require(const Rubric& rubric, Outcome& mine, const Outcome& other, std::siz
   mine.borderline = other.borderline;
   mine.earned = other.earned;
   mine.reason = fmt::format("it requires \"{}\", which is {}",
-                            base::printable(rubric.items[n].needs), word_of(mine.verdict));
+                            base::printable(rubric.items[n].needs), word_of(standing_of(mine)));
 }
 
 }  // namespace
@@ -33,6 +33,31 @@ const char* word_of(Verdict verdict) {
       return "not assessable";
   }
   return "";
+}
+
+Standing standing_of(const Outcome& outcome) {
+  if (outcome.verdict == Verdict::met) return Standing::met;
+  if (outcome.verdict == Verdict::not_assessable) return Standing::not_assessable;
+  return outcome.earned ? Standing::not_met : Standing::too_early;
+}
+
+const char* word_of(Standing standing) {
+  switch (standing) {
+    case Standing::met:
+      return "met";
+    case Standing::not_met:
+      return "not met";
+    case Standing::too_early:
+      return "too early to say";
+    case Standing::not_assessable:
+      return "not assessable";
+  }
+  return "";
+}
+
+bool did_harm(const Item& item, const Outcome& outcome) {
+  return standing_of(outcome) == Standing::not_met &&
+         (item.gate || (item.how != nullptr && item.how->guards));
 }
 
 double credit_of(const Item& item, const Outcome& outcome) {
@@ -56,12 +81,24 @@ Total total_of(const Rubric& rubric, std::span<const Outcome> outcomes, Part par
     ++out.assessable;
     known += item.weight;
     out.met += outcomes[n].verdict == Verdict::met ? 1 : 0;
+    out.too_early += standing_of(outcomes[n]) == Standing::too_early ? 1 : 0;
     met += item.weight * credit_of(item, outcomes[n]);
   }
   if (all > 0) out.not_assessable = (all - known) / all;
   // the sums of weights such as 0.1 are not exact
   if (known > 0 && out.not_assessable <= kMostUnknown + 1e-9) out.points = 100 * met / known;
   return out;
+}
+
+std::vector<std::size_t> in_order(const Rubric& rubric, std::span<const Outcome> outcomes,
+                                  Part part) {
+  BURR_CHECK(outcomes.size() == rubric.items.size());
+  std::vector<std::size_t> numbers;
+  for (const bool harm : {true, false})
+    for (std::size_t n = 0; n < outcomes.size(); ++n)
+      if (rubric.items[n].part == part && did_harm(rubric.items[n], outcomes[n]) == harm)
+        numbers.push_back(n);
+  return numbers;
 }
 
 void apply_requires(const Rubric& rubric, std::span<Outcome> outcomes) {

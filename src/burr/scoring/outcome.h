@@ -5,7 +5,8 @@
 // credit: 1 for a met item, 0 for an unmet one; of a graded item what credit_of() says.
 //
 // Product and process are never added. There is no total when more than a fifth of the weight is not
-// assessable. A gate that is not met does not change the total. Thread: any.
+// assessable. A gate that is not met does not change the total. A gate is what people read as an item of
+// safety. Thread: any.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,8 @@
 namespace burr::scoring {
 
 enum class Verdict { met, unmet, not_assessable };
-[[nodiscard]] const char* word_of(Verdict verdict);  // "met", "unmet", "not assessable"
+// For machines: "met", "unmet", "not assessable". People read the words of Standing.
+[[nodiscard]] const char* word_of(Verdict verdict);
 
 // A place that an item looked at, for a picture.
 struct Spot {
@@ -59,9 +61,25 @@ struct Outcome {
   std::vector<Spot> spots;            // at most kMostSpots; the bare ones are kept first
 };
 
+// What people are told. There are three outcomes; the fourth says that there is none.
+enum class Standing {
+  met,
+  not_met,
+  too_early,  // nothing is wrong, and too little was done to say more
+  not_assessable,
+};
+[[nodiscard]] Standing standing_of(const Outcome& outcome);
+// "met", "not met", "too early to say", "not assessable"
+[[nodiscard]] const char* word_of(Standing standing);
+
+// True: the work did harm there. It is not met, and it judges what must stay as it was: a gate, or an
+// item whose measure does (Measure::guards).
+[[nodiscard]] bool did_harm(const Item& item, const Outcome& outcome);
+
 struct Total {
   std::optional<double> points;  // 0..100; none: too little is assessable
-  std::size_t met = 0, assessable = 0, items = 0;
+  // too_early: of the assessable; they earn nothing yet
+  std::size_t met = 0, too_early = 0, assessable = 0, items = 0;
   double not_assessable = 0;  // share of the weight
 };
 inline constexpr double kMostUnknown = 0.2;  // share of the weight that may be not assessable
@@ -72,6 +90,10 @@ inline constexpr double kMostUnknown = 0.2;  // share of the weight that may be 
 
 // outcomes: one for each item of the rubric, in its order, here and below.
 [[nodiscard]] Total total_of(const Rubric& rubric, std::span<const Outcome> outcomes, Part part);
+
+// The numbers of the items of a part: what did harm comes first, the others as in the rubric.
+[[nodiscard]] std::vector<std::size_t> in_order(const Rubric& rubric,
+                                                std::span<const Outcome> outcomes, Part part);
 
 // `requires`: a met item becomes what its required item is: unmet, not earned, or not assessable. Follows
 // `requires` of the required item first. The rubric must have no circle.

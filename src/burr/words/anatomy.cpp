@@ -123,7 +123,7 @@ std::string place_name(std::string_view name) {
 
 std::string anatomy_list(const std::vector<std::string>& names) {
   std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + anatomy(name);
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + place_name(name);
   return list;
 }
 

@@ -19,7 +19,7 @@ function make(tag, with_what = {}, ...inside) {
   return one;
 }
 const button = (text, click, more = {}) => make('button', {type: 'button', click, ...more}, text);
-const kSigns = {good: '✓ ', bad: '✗ ', open: '○ ', none: ''};
+const kSigns = {good: '✓ ', bad: '✗ ', open: '○ ', none: '– '};
 const mark_of = ({word: text, tone}) => make('span', {class: tone}, kSigns[tone] + text);
 
 export class Course {

@@ -268,33 +268,50 @@ function write() {
   $('loop').textContent = lost > 0 ? word('left_out', number(lost, 0)) : word('ticks_good');
 }
 
-// ---- the target of the step: its tissues in a bright colour, and rings over the picture
+// ---- the target of the step: tissues in the colours of target and spare, and signs over the picture, one for each kind
 
-let rings = [];
+// d: of an SVG path about 0, 0; r [px]
+const kSigns = {
+  target: (r) => `M${-r} 0A${r} ${r} 0 1 0 ${r} 0A${r} ${r} 0 1 0 ${-r} 0`,
+  plane: () => '',
+  spare: (r) => `${kSigns.target(r)}M${-0.7 * r} ${-0.7 * r}L${0.7 * r} ${0.7 * r}`,
+  place: (r) => `M${-r} 0H${r}M0 ${-r}V${r}`,
+};
+let marks = [], lines = [];
 function light(what) {
   if (!view) return;
   view.view_unlight();
-  for (const tissue of what?.tissues ?? []) view.view_light(tissue, ...what.colour);
-  rings = (what?.rings ?? []).map((ring) => {
-    const make = (kind) => document.createElementNS('http://www.w3.org/2000/svg', kind);
-    const [circle, name] = [make('circle'), make('text')];
-    name.textContent = ring.name;
-    return {...ring, circle, text: name};
+  for (const {ids, colour} of what?.tissues ?? []) for (const tissue of ids) view.view_light(tissue, ...colour);
+  const make = (kind, of) => {
+    const one = document.createElementNS('http://www.w3.org/2000/svg', kind);
+    one.setAttribute('class', of);
+    return one;
+  };
+  marks = (what?.marks ?? []).map((mark) => {
+    const [sign, name] = [make('path', mark.kind), make('text', mark.kind)];
+    name.textContent = mark.text;
+    return {...mark, sign, name};
   });
-  $('light').replaceChildren(...rings.flatMap(({circle, text}) => [circle, text]));
+  lines = (what?.lines ?? []).map((ends) => ({ends, line: make('line', 'plane')}));
+  $('light').replaceChildren(...lines.map(({line}) => line), ...marks.flatMap(({sign, name}) => [sign, name]));
   draw_light();
   dirty = true;
 }
 function draw_light() {
   const scale = canvas.clientHeight / Math.max(1, canvas.height);
-  for (const {at, radius, circle, text} of rings) {
+  for (const {at, radius, kind, sign, name} of marks) {
     const [x, y, r] = view.numbers(view.view_place(...at, radius), 3);
-    const wide = Math.max(6, scale * r);
-    circle.setAttribute('visibility', r < 0 ? 'hidden' : 'visible');
-    text.setAttribute('visibility', r < 0 ? 'hidden' : 'visible');
-    for (const [name, value] of [['cx', scale * x], ['cy', scale * y], ['r', wide]]) circle.setAttribute(name, value);
-    text.setAttribute('x', scale * x + wide + 5);
-    text.setAttribute('y', scale * y + 4);
+    const wide = kind === 'target' ? Math.max(6, scale * r) : 6;  // a ring has the size of what it is about
+    for (const one of [sign, name]) one.setAttribute('visibility', r < 0 ? 'hidden' : 'visible');
+    sign.setAttribute('transform', `translate(${scale * x} ${scale * y})`);
+    sign.setAttribute('d', kSigns[kind](wide));
+    name.setAttribute('x', scale * x + wide + 5);
+    name.setAttribute('y', scale * y + 4);
+  }
+  for (const {ends, line} of lines) {
+    const [a, b] = ends.map((at) => view.numbers(view.view_place(...at, 0.001), 3));
+    line.setAttribute('visibility', a[2] < 0 || b[2] < 0 ? 'hidden' : 'visible');
+    for (const [name, value] of [['x1', a[0]], ['y1', a[1]], ['x2', b[0]], ['y2', b[1]]]) line.setAttribute(name, scale * value);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <vector>
 
 #include "burr/tool/burr_tool.h"
 #include "burr/tool/shaped_tool.h"
@@ -85,8 +86,7 @@ std::string Drill::next_burr() {
 
 std::string Drill::change_burr(int by) {
   if (tool_ >= 0) return word(Word::tool_one_size);
-  const double least =
-      std::max(tool::kSmallestDiameter, 4 * session_.bone().grid().voxel);  // as tick/servo.cpp
+  const double least = least_size();
   const double now = 2 * requested_.value_or(session_.burr_radius());
   std::optional<double> next;
   for (const double size : kSizes) {
@@ -127,6 +127,33 @@ std::string Drill::toggle_kind() {
   shown_.diamond = !shown_.diamond;
   session_.command({tick::CommandKind::burr_kind, shown_.diamond ? 1.0 : 0.0});
   return word(shown_.diamond ? Word::now_diamond : Word::now_fluted);
+}
+
+guidance::BurrChoice Drill::burr_for(const scenario::Step& step) const {
+  std::vector<double> sizes;
+  for (const double size : kSizes)
+    if (size >= least_size() - 1e-9) sizes.push_back(size);
+  const auto kind = shown_.diamond ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+  return guidance::burr_for(step, {kind, 2 * requested_.value_or(session_.burr_radius())}, sizes);
+}
+
+std::string Drill::suit(const scenario::Step& step) {
+  std::string told;
+  const bool works = mode_ == tick::ToolMode::cut || mode_ == tick::ToolMode::add;
+  if (works && step.adds != (mode_ == tick::ToolMode::add))
+    told = set_mode(step.adds ? tick::ToolMode::add : tick::ToolMode::cut);
+  if (tool_ >= 0) told = take_tool(-1, nullptr);
+  const guidance::BurrChoice burr = burr_for(step);
+  if ((burr.kind == tool::BurrKind::diamond) != shown_.diamond) told = toggle_kind();
+  if (std::abs(burr.diameter - 2 * session_.burr_radius()) < 1e-9) return told;
+  requested_ = 0.5 * burr.diameter;
+  requested_at_ = Clock::now();
+  session_.command({tick::CommandKind::burr_radius, *requested_});
+  return told;
+}
+
+double Drill::least_size() const {
+  return std::max(tool::kSmallestDiameter, 4 * session_.bone().grid().voxel);  // as tick/servo.cpp
 }
 
 std::string Drill::toggle_coolant() {

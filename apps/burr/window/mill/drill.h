@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "burr/guidance/step_plan.h"
 #include "burr/render/scene.h"
 #include "burr/scenario/rack.h"
 #include "burr/sim/session.h"
@@ -28,6 +29,9 @@ class Drill {
   [[nodiscard]] std::string slower();
   [[nodiscard]] std::string faster();
   [[nodiscard]] std::string toggle_kind();
+  // The round burr that suits a step (guidance/step_plan.h), and whether it adds or cuts.
+  [[nodiscard]] std::string suit(const scenario::Step& step);
+  [[nodiscard]] guidance::BurrChoice burr_for(const scenario::Step& step) const;
   // number: in the session's list of tools, with the tool itself; -1, nullptr: the round burr
   [[nodiscard]] std::string take_tool(int number, const scenario::RackTool* tool);
   [[nodiscard]] std::string toggle_coolant();
@@ -43,6 +47,7 @@ class Drill {
 
  private:
   using Clock = std::chrono::steady_clock;
+  [[nodiscard]] double least_size() const;  // that the voxels allow; a diameter [m]
   std::string change_speed(double by_rpm);
   std::string change_tool_speed(int by);
 

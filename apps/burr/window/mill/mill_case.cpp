@@ -22,8 +22,7 @@ MillCase::MillCase(volume::Bone& bone, double rate_hz, render::Scene& scene,
 }
 
 void MillCase::begin() {
-  if (steps_offered() && options_.mode != record::Mode::free)
-    watch_.emplace(bone_, *options_.lesson);
+  if (!steps_.empty()) watch_.emplace(bone_, *options_.lesson);
 }
 
 void MillCase::end(bool time_over) {
@@ -95,6 +94,8 @@ void MillCase::say_refused() {
 void MillCase::tell(const guidance::Steps::Events& events) {
   if (events.empty()) return;
   light_off();  // it was the target of another step
+  press_.reset();
+  ++turns_;
   for (const guidance::Steps::Event& one : events) write(one.kind, one.what, {}, one.value);
 }
 
@@ -113,7 +114,7 @@ void MillCase::look_at_steps(bool asks_done) {
 
 // A step whose `done` is reached is ticked off, unless the user opened it again.
 void MillCase::look_at_measure(bool asks_done) {
-  if (!watch_ || !steps_begun_) return;
+  if (!watch_ || !steps_begun_ || options_.mode == record::Mode::free) return;
   const auto now = steps_.current();
   // while the question "is the work done?" is open no measurement begins: the user would wait for its end
   const bool looks = now && !steps_.was_reopened(*now) && !asks_done;
@@ -128,6 +129,7 @@ void MillCase::look_at_measure(bool asks_done) {
 void MillCase::step_done() {
   if (steps_.empty()) return notes_.note(word(Word::steps_none));
   if (!steps_offered()) return say_refused();
+  wanted_ = true;
   tell(steps_.declare_done());
   if (steps_.now() == nullptr) notes_.note(word(Word::steps_all_done));
 }
@@ -139,12 +141,37 @@ void MillCase::light_target() {
   if (!lights && !light_.is_on()) return;
   if (lights) {
     lit_step_ = steps_.id(*steps_.current());
-    light_.on(*steps_.now(), *options_.lesson, bone_.tissues(), scene_);
+    wanted_ = true;
+    ++turns_;
+    light_step();
   } else {
     light_.off(scene_);
   }
   write(lights ? record::CourseKind::help_shown : record::CourseKind::help_hidden, "target",
         lit_step_);
+}
+
+void MillCase::light_step() {
+  const bool known = target_ && target_->step == steps_.current();
+  light_.on(guidance::marks_of(*steps_.now(), *options_.lesson, bone_.tissues(),
+                               known ? &target_->target : nullptr),
+            scene_);
+}
+
+bool MillCase::follows() const {
+  return steps_offered() && (options_.allowed.steps == workshop::Offer::always || wanted_);
+}
+
+void MillCase::seek_target(double radius) {
+  if (watch_) watch_->seek({steps_.current().value_or(0), radius});
+}
+
+std::optional<guidance::StepWatch::Seen> MillCase::look_at_target() {
+  auto seen = watch_ ? watch_->seen() : std::nullopt;
+  if (!seen) return seen;
+  target_ = seen;
+  if (light_.is_on() && steps_.current() == seen->step) light_step();
+  return seen;
 }
 
 void MillCase::look_at_technique(const Nearest& nearest, const scenario::RackTool* tool) {
@@ -200,10 +227,14 @@ void MillCase::say_injury(const std::string& structure) {
 }
 
 void MillCase::draw_steps_panel(Ui& ui) {
-  const StepsPressed pressed = draw_steps(ui, steps_, options_.allowed.target, light_.is_on());
+  StepsState state = {.offers_light = options_.allowed.target, .press = press_};
+  if (light_.is_on()) state.lit = &light_.marks();
+  const StepsPressed pressed = draw_steps(ui, steps_, state);
   if (pressed.done) step_done();
   if (pressed.light) light_target();
-  if (pressed.row) tell(steps_.choose(*pressed.row));
+  if (!pressed.row) return;
+  wanted_ = true;
+  tell(steps_.choose(*pressed.row));
 }
 
 void MillCase::keep_diary(record::Sight sight, const Nearest& nearest, bool panels) {

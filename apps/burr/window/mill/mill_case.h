@@ -62,6 +62,17 @@ class MillCase {
   void draw_steps_panel(Ui& ui);
   void draw_light(const Ui& ui) const { light_.draw(ui, scene_.camera); }
   [[nodiscard]] const scenario::Step* step() const { return steps_.now(); }
+  // Where the work of the current step lies (step_follower.h). Rises with each step that becomes the
+  // current one, and where the user wants to see its target.
+  [[nodiscard]] int turns() const { return turns_; }
+  // True: view and tool follow the steps, since the mode shows them or the user uses them.
+  [[nodiscard]] bool follows() const;
+  // Asks for the target of the current step, or of the first; radius: of the burr that suits [m].
+  void seek_target(double radius);
+  // Once for each answer: the step and its target. The light shows it from now on.
+  [[nodiscard]] std::optional<guidance::StepWatch::Seen> look_at_target();
+  // What the panel says of the step's press [m].
+  void tell_press(double depth) { press_ = depth; }
   // How many the user is to be reminded of. An exam shows no steps, so of none.
   [[nodiscard]] std::size_t open_steps() const;
 
@@ -89,6 +100,7 @@ class MillCase {
  private:
   void tell(const guidance::Steps::Events& events);
   void look_at_measure(bool asks_done);
+  void light_step();
   void write(record::CourseKind kind, const std::string& what, const std::string& where,
              const std::string& value = {});
 
@@ -103,6 +115,10 @@ class MillCase {
   bool steps_begun_ = false;
   std::string lit_step_;  // whose target is lit, or was lit last
   StepLight light_;
+  std::optional<guidance::StepWatch::Seen> target_;  // the newest
+  int turns_ = 1;
+  bool wanted_ = false;          // the user uses the steps
+  std::optional<double> press_;  // of the step, as it was proposed [m]
   guidance::Technique technique_;
   guidance::Technique::Cue cue_ = guidance::Technique::Cue::none;
   double removed_before_ = 0;  // up to the picture before [m^3]

@@ -1,6 +1,7 @@
 #include "window/mill/mill_hand.h"
 
 #include <cmath>
+#include <utility>
 
 #include "burr/render/pick.h"
 #include "burr/workshop/suction_hand.h"
@@ -49,7 +50,10 @@ MillHand::MillHand(const MillSite& site, Pointer& pointer, const WornHeadset& he
   aim_.hold(&tools.grip());
 }
 
-void MillHand::take_settings() { press_.begin_at(1e-3 * desk_.settings.press_mm); }
+void MillHand::take_settings() {
+  if (std::exchange(usual_mm_, desk_.settings.press_mm) != desk_.settings.press_mm)
+    press_.begin_at(1e-3 * desk_.settings.press_mm);
+}
 
 void MillHand::begin() {
   take_settings();

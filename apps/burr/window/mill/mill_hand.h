@@ -39,7 +39,9 @@ class MillHand {
            MillTools& tools, const PieceCarrier& pieces);
 
   void begin();          // before the session starts
-  void take_settings();  // the depth of the press
+  void take_settings();  // the depth of the press, if the user has changed it there
+  // The step of the case wants this depth; the user may change it.
+  void propose_press(double depth) { press_.begin_at(depth); }
 
   // ---- what the user does
   void button(bool down) { press_.button(down); }
@@ -106,6 +108,7 @@ class MillHand {
   MillTools& tools_;
   const PieceCarrier& pieces_;
   Press press_;
+  double usual_mm_ = 0;  // the press of the settings that was taken last
   HandPlane plane_;
   struct Lifts {  // haptic device: stopped by the user; lifted by key or foot, to be moved
     bool stopped = false, by_key = false, by_foot = false;

@@ -13,6 +13,7 @@
 #include "window/mill/mill_view.h"
 #include "window/mill/piece_carrier.h"
 #include "window/mill/pointer.h"
+#include "window/mill/step_follower.h"
 #include "window/mill/worn_headset.h"
 
 namespace burr::app {
@@ -28,7 +29,8 @@ struct MillParts {
         side(site, work_case, view, names),
         tools(site, work_case, headset),
         pieces(site, pointer, tools),
-        hand(site, pointer, headset, view, tools, pieces) {}
+        hand(site, pointer, headset, view, tools, pieces),
+        follower(site, work_case, view, tools, hand) {}
   MillParts(const MillParts&) = delete;
   MillParts& operator=(const MillParts&) = delete;
 
@@ -41,6 +43,7 @@ struct MillParts {
   MillTools tools;
   PieceCarrier pieces;
   MillHand hand;
+  StepFollower follower;
 };
 
 }  // namespace burr::app

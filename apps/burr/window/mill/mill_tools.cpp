@@ -49,6 +49,15 @@ void MillTools::take(int place) {
                   : std::string(word(diamond ? Word::now_diamond : Word::now_fluted)));
 }
 
+void MillTools::suit(const scenario::Step& step) {
+  if (step.tool.empty()) {
+    notes_.note(drill_.suit(step));
+    return grip_.take(rack_.tool(drill_.tool()));
+  }
+  for (int place = 0; place < rack_.size(); ++place)
+    if (rack_.tool(place)->name == step.tool && place != drill_.tool()) return take(place);
+}
+
 void MillTools::next(int by) {
   const int first = scene_.burr.diamond ? ToolRack::kDiamond : ToolRack::kCutting;
   const int count = rack_.size() + 1, now = drill_.tool() + 1;

@@ -35,6 +35,7 @@ class MillTools {
   [[nodiscard]] Drill& drill() { return drill_; }
   [[nodiscard]] const Drill& drill() const { return drill_; }
   void take(int place);  // ToolRack::kCutting, kDiamond, or a number of the session's list
+  void suit(const scenario::Step& step);  // takes what suits a step of the case
   // The next tool of the rack; after the last comes the round burr, because a pedal has one button.
   void next(int by);
   void roll(double steps);

@@ -90,6 +90,11 @@ void MillView::take(ViewKind kind, const Vec3& at) {
   notes_.note(word(kNames[static_cast<int>(kind)]));
 }
 
+void MillView::face(const Vec3& at, const Vec3& outward, double radius) {
+  view_turn_.stop();
+  views_.face(scene_, at, outward, radius);
+}
+
 void MillView::first() { views_.first(scene_, aspect()); }
 
 void MillView::magnify(double by) {

@@ -33,6 +33,7 @@ class MillView {
   void turn(double right, double up, bool shift);
   // at: what the endoscope looks at
   void take(ViewKind kind, const math::Vec3& at);
+  void face(const math::Vec3& at, const math::Vec3& outward, double radius);  // as Views::face()
   void first();
   void magnify(double by);  // steps of the wheel: of the microscope, or nearer without steps
   void deep_or_not();       // depth of field under the microscope

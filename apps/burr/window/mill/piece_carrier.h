@@ -25,6 +25,10 @@ class PieceCarrier {
 
   void look();  // in each picture
   [[nodiscard]] bool has_piece() const { return pieces_ && pieces_->taken(); }
+  // As PieceMode::moved().
+  [[nodiscard]] std::optional<edit::PieceStore> moved() const {
+    return pieces_ ? pieces_->moved() : edit::PieceStore();
+  }
   // The axes of the hand stay as they are meanwhile: a turned view must not turn the piece.
   [[nodiscard]] bool carries() const { return pieces_ && pieces_->carried(); }
 

@@ -40,6 +40,11 @@ class PieceMode {
   // Before look(): a tube that draws in splinters; none: nothing does.
   void suck(const std::optional<sim::PieceMover::Suction>& by) { mover_.suck(by); }
 
+  // The pieces that were moved so far; none: one is out of the bone, or on its way.
+  [[nodiscard]] std::optional<edit::PieceStore> moved() const {
+    return mover_.busy() ? std::nullopt : std::optional(mover_.store());
+  }
+
   [[nodiscard]] bool taken() const { return taken_.has_value(); }
   void take(std::size_t row);
   void leave();

@@ -11,7 +11,7 @@ namespace burr::app {
 
 class Press {
  public:
-  static constexpr double kLeast = 0.5e-3;  // depth of the arm's target below the surface  [m]
+  static constexpr double kLeast = 0.2e-3;  // depth of the arm's target below the surface  [m]
   static constexpr double kMost = 6e-3;
 
   void begin_at(double depth) { full_ = std::clamp(depth, kLeast, kMost); }

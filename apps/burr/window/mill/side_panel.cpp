@@ -7,6 +7,7 @@
 
 #include "shared/word_names.h"
 #include "window/mill/cross_button.h"
+#include "window/mill/step_light.h"
 #include "window/parts/hud.h"
 
 namespace burr::app {
@@ -15,7 +16,7 @@ namespace {
 using Letter = Ui::Letter;
 using volume::TissueKind;
 
-constexpr float kPadding = 12, kRow = 23, kLegend = 96;  // [points]
+constexpr float kPadding = 12, kRow = 23, kLegend = 159;  // [points]
 
 // The shape tells the kind, not the colour alone: soft is a disc, solid a square, air a ring.
 void swatch(ImDrawList& draw, ImVec2 at, float r, TissueKind kind, ImU32 colour) {
@@ -113,8 +114,10 @@ void draw_legend(Ui& ui, float x, float y) {
                          {force.x + 9 * u, force.y}, ink::rgb(255, 115, 38));
   const ImVec2 ring = line(2, Word::legend_burr);
   draw.AddCircle(ring, 5 * u, ink::kAccent, 20, 1.4F * u);
-  const ImVec2 target = line(3, Word::legend_target);
-  draw.AddCircle(target, 5 * u, ink::rgb(90, 240, 115), 20, 2 * u);
+  int n = 3;
+  using guidance::MarkKind;
+  for (const MarkKind kind : {MarkKind::target, MarkKind::plane, MarkKind::spare, MarkKind::place})
+    draw_sign(draw, line(n++, legend_of(kind)), 5 * u, u, kind, ink_of(kind));
 }
 
 }  // namespace

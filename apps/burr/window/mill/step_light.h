@@ -1,20 +1,20 @@
-// apps/burr/window/mill/step_light.h - lights what a step of the case is about: rings around places
-// and regions, and tissues in a bright colour.
+// apps/burr/window/mill/step_light.h - shows what a step of the case is about: the target, the planes of a cut, what is
+// to be spared, places for orientation. Each has a shape, a colour and a word of its own.
 //
-//     light.on(step, lesson, bone.tissues(), scene);
-//     light.draw(ui, camera);                          // the rings, in each picture
+//     light.on(marks, scene);
+//     light.draw(ui, camera);                          // the marks, in each picture
 //     light.off(scene);
 //
 // Thread: main. Units: SI. Frame: world.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "burr/guidance/step_rings.h"
+#include "burr/guidance/step_marks.h"
 #include "burr/render/scene.h"
-#include "burr/scenario/lesson.h"
-#include "burr/volume/tissue.h"
+#include "shared/word_names.h"
 #include "window/ui/ui.h"
 
 namespace burr::app {
@@ -22,15 +22,22 @@ namespace burr::app {
 class StepLight {
  public:
   [[nodiscard]] bool is_on() const { return on_; }
-  void on(const scenario::Step& step, const scenario::CaseLesson& lesson,
-          const volume::TissueTable& tissues, render::Scene& scene);
+  [[nodiscard]] const guidance::StepMarks& marks() const { return marks_; }
+  void on(guidance::StepMarks marks, render::Scene& scene);
   void off(render::Scene& scene);
   void draw(const Ui& ui, const render::Camera& camera) const;
 
  private:
   bool on_ = false;
-  std::vector<guidance::Ring> rings_;
+  guidance::StepMarks marks_;
   std::vector<std::pair<std::size_t, render::Colour>> colours_;  // of tissues, before
 };
+
+[[nodiscard]] ImU32 ink_of(guidance::MarkKind kind);
+// The sign of a kind, for the picture and for the legend. r: its radius [pixel].
+void draw_sign(ImDrawList& draw, ImVec2 at, float r, float u, guidance::MarkKind kind, ImU32 shade);
+[[nodiscard]] Word legend_of(guidance::MarkKind kind);  // "to be spared"
+// "spare: facial nerve"
+[[nodiscard]] std::string mark_text(const guidance::StepMark& mark);
 
 }  // namespace burr::app

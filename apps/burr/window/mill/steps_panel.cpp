@@ -8,14 +8,16 @@
 #include "burr/guidance/suits.h"
 #include "shared/word_names.h"
 #include "window/mill/side_panel.h"
+#include "window/mill/step_light.h"
 #include "window/parts/hud.h"
 
 namespace burr::app {
 namespace {
 
 using Letter = Ui::Letter;
+using guidance::MarkKind;
 
-constexpr float kWide = kSideWide, kPadding = 14, kRow = 22, kButtons = 34;  // [points]
+constexpr float kWide = kSideWide, kPadding = 14, kRow = 22, kButtons = 34, kSign = 18;  // [points]
 
 struct Paragraph {
   Letter letter;
@@ -29,7 +31,7 @@ const std::string& title_of(const scenario::Step& step) {
   return title.empty() ? step.id : title;
 }
 
-std::vector<Paragraph> paragraphs(const guidance::Steps& steps) {
+std::vector<Paragraph> paragraphs(const guidance::Steps& steps, const StepsState& state) {
   const scenario::Step* now = steps.now();
   if (now == nullptr) return {{Letter::strong, ink::kGood, word(Word::steps_all_done)}};
   std::vector<Paragraph> all = {
@@ -38,9 +40,23 @@ std::vector<Paragraph> paragraphs(const guidance::Steps& steps) {
       {Letter::body, ink::kText, now->say.in(spoken().code)}};
   if (const std::string tool = guidance::suits(*now); !tool.empty())
     all.push_back({Letter::body, ink::kDim, say(Word::steps_tool, tool)});
+  if (state.press)
+    all.push_back({Letter::body, ink::kDim, say(Word::steps_press, 1e3 * *state.press)});
   if (!now->spare.empty())
     all.push_back({Letter::body, ink::kWarn, say(Word::task_spare, anatomy_list(now->spare))});
   return all;
+}
+
+// The kinds of marks that are shown, for a legend.
+std::vector<MarkKind> kinds_of(const guidance::StepMarks* lit) {
+  std::vector<MarkKind> kinds;
+  for (const MarkKind kind :
+       {MarkKind::target, MarkKind::plane, MarkKind::spare, MarkKind::place}) {
+    const bool tissue = lit != nullptr && ((kind == MarkKind::target && !lit->target.empty()) ||
+                                           (kind == MarkKind::spare && !lit->spare.empty()));
+    if (lit != nullptr && (tissue || lit->has(kind))) kinds.push_back(kind);
+  }
+  return kinds;
 }
 
 // Which rows are shown where not all fit: the current one in their middle.
@@ -91,12 +107,12 @@ std::optional<std::size_t> rows(Ui& ui, const guidance::Steps& steps, float x, f
 
 }  // namespace
 
-StepsPressed draw_steps(Ui& ui, const guidance::Steps& steps, bool offers_light, bool lit) {
+StepsPressed draw_steps(Ui& ui, const guidance::Steps& steps, const StepsState& state) {
   StepsPressed pressed;
   const float u = ui.unit(), inside = (kWide - 2 * kPadding) * u, gap = 6 * u;
   const float x = kSideLeft * u, y = kSideLeafTop * u,
               room = ui.height() - hud_height(ui) - y - kSideFoot * u;
-  const std::vector<Paragraph> texts = paragraphs(steps);
+  const std::vector<Paragraph> texts = paragraphs(steps, state);
   const auto height_of = [&](const Paragraph& one) {
     const ImFont* font = ui.font(one.letter);
     return font->CalcTextSizeA(font->FontSize, FLT_MAX, inside, one.text.c_str()).y;
@@ -104,6 +120,8 @@ StepsPressed draw_steps(Ui& ui, const guidance::Steps& steps, bool offers_light,
   const bool works = steps.now() != nullptr;
   float high = 2 * kPadding * u + (works ? kButtons * u : 0);
   for (const Paragraph& one : texts) high += height_of(one) + gap;
+  const std::vector<MarkKind> signs = kinds_of(state.lit);
+  high += static_cast<float>(signs.size()) * kSign * u;
   const auto fit = static_cast<std::size_t>(std::max(1.0F, (room - high) / (kRow * u)));
   const std::size_t shown = std::min(fit, steps.size());
   high = std::min(room, high + static_cast<float>(shown) * kRow * u);
@@ -121,10 +139,15 @@ StepsPressed draw_steps(Ui& ui, const guidance::Steps& steps, bool offers_light,
     ImGui::SetCursorScreenPos({x + kPadding * u, at});
     pressed.done = ImGui::Button(say(Word::steps_done, "J").c_str());
     ImGui::SameLine(0, 8 * u);
-    if (offers_light)
-      pressed.light =
-          ImGui::Button(say(lit ? Word::steps_unlight : Word::steps_light, "A").c_str());
+    if (state.offers_light)
+      pressed.light = ImGui::Button(
+          say(state.lit != nullptr ? Word::steps_unlight : Word::steps_light, "A").c_str());
     at += kButtons * u;
+    for (const MarkKind kind : signs) {
+      draw_sign(draw, {x + (kPadding + 8) * u, at + kSign * u / 2}, 5 * u, u, kind, ink_of(kind));
+      ui.write(x + (kPadding + 22) * u, at, Letter::small, ink_of(kind), word(legend_of(kind)));
+      at += kSign * u;
+    }
   }
   pressed.row = rows(ui, steps, x + kPadding * u, at, shown);
   ImGui::End();

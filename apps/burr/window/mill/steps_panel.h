@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "burr/guidance/step_marks.h"
 #include "burr/guidance/steps.h"
 #include "window/ui/ui.h"
 
@@ -18,9 +19,13 @@ struct StepsPressed {
   std::optional<std::size_t> row;  // this step shall be the current one, or be opened again
 };
 
-// offers_light: there is a button for it. lit: it is lit now.
-[[nodiscard]] StepsPressed draw_steps(Ui& ui, const guidance::Steps& steps, bool offers_light,
-                                      bool lit);
+struct StepsState {
+  bool offers_light = false;                 // there is a button that shows the target
+  const guidance::StepMarks* lit = nullptr;  // what is shown now; nullptr: nothing
+  std::optional<double> press = {};          // proposed for the step; none: not known [m]
+};
+[[nodiscard]] StepsPressed draw_steps(Ui& ui, const guidance::Steps& steps,
+                                      const StepsState& state);
 
 // The button with which the user declares the work done, at the top right. column: width at the right
 // that slices cover [pixel]. True: it was pressed.

@@ -84,9 +84,11 @@ void Mill::begin() {
   if (options_.mode == record::Mode::exam) notes_.note(word(Word::exam_begins));
   over_.pages.emplace(desk_, session_, scene_, options_, &mill_help_rows);
   parts_.pieces.begin();
+  over_.pages->exporting().know_pieces([this] { return parts_.pieces.moved(); });
   parts_.work_case.begin();
   parts_.pointer.begin();
   parts_.hand.begin();
+  parts_.follower.begin();
   session_.start();
 }
 
@@ -103,6 +105,7 @@ Status Mill::frame(workshop::LiveSurface& live) {
   parts_.hand.point();
   parts_.hand.measure();
   if (ticks_.begun()) look_at_case();
+  parts_.follower.look();
   if (ExportPage::Note note = over_.pages->exporting().step(); note.stays)
     notes_.keep(std::move(note.text));
   else

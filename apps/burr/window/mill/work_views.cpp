@@ -42,6 +42,23 @@ void Views::first(render::Scene& scene, double aspect) {
   go(first_kind_, scene, first_.target, aspect);
 }
 
+void Views::face(render::Scene& scene, const Vec3& at, const Vec3& outward, double radius) {
+  constexpr double kSeen = 0.9, kMiddle = 0.3;  // cosine; share of the picture's height
+  constexpr double kHigh = 2.6;                 // of the picture, in radii
+  const render::Camera& now = scene.camera;
+  const Vec3 off = at - now.target;
+  const double aside = (off - off.dot(now.backward()) * now.backward()).norm();
+  if (now.backward().dot(outward) > kSeen && aside < kMiddle * now.view_height() &&
+      now.view_height() > kHigh * radius)
+    return;
+  double field = render::kFields.front();
+  for (std::size_t n = 0; n <= render::kFirstField; ++n)
+    if (render::kFields[n] >= kHigh * radius) field = render::kFields[n];
+  scene.camera = render::microscope_view(at, outward, field);
+  kind_ = ViewKind::microscope;
+  dress(scene);
+}
+
 void Views::go(ViewKind kind, render::Scene& scene, const Vec3& work, double aspect) {
   render::Camera& camera = scene.camera;
   if (kind_ == ViewKind::microscope && kind != kind_) microscope_ = camera;

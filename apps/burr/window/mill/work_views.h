@@ -27,6 +27,9 @@ class Views {
 
   // Takes that view. work: what the endoscope looks at; aspect: width / height of the picture.
   void go(ViewKind kind, render::Scene& scene, const math::Vec3& work, double aspect);
+  // The microscope over a place, unless it is seen well already: from about that direction, and near the
+  // middle. outward: unit, to the eye; radius: of what is to be in the picture.
+  void face(render::Scene& scene, const math::Vec3& at, const math::Vec3& outward, double radius);
   // The view that the page began with.
   void first(render::Scene& scene, double aspect);
   // The scene has got a camera from elsewhere.

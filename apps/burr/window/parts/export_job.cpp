@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 
 #include "burr/io/export_part.h"
 #include "burr/render/picture.h"
 #include "burr/volume/shared_copy.h"
+#include "shared/piece_files.h"
 #include "window/parts/film_job.h"
 
 namespace burr::app {
@@ -28,6 +30,10 @@ const char* name_of(ExportWhat what) {
   switch (what) {
     case ExportWhat::removed:
       return "removed";
+    case ExportWhat::added:
+      return "added";
+    case ExportWhat::pieces:
+      return "piece";
     case ExportWhat::picture:
       return "picture";
     case ExportWhat::film:
@@ -39,7 +45,9 @@ const char* name_of(ExportWhat what) {
 
 io::ExportOptions options_of(ExportWhat what) {
   io::ExportOptions options;
-  options.part = what == ExportWhat::removed ? io::Part::removed : io::Part::bone;
+  options.part = what == ExportWhat::removed ? io::Part::removed
+                 : what == ExportWhat::added ? io::Part::added
+                                             : io::Part::bone;
   return options;
 }
 
@@ -65,15 +73,19 @@ std::string path_for(const std::string& path, ExportWhat what, const std::string
       bare = path.substr(0, path.size() - old.size());
   const fs::path whole(bare);
   const std::string name = whole.filename().string();
+  constexpr ExportWhat kAll[] = {ExportWhat::bone,   ExportWhat::removed, ExportWhat::added,
+                                 ExportWhat::pieces, ExportWhat::picture, ExportWhat::film};
   const bool ours =
-      name.empty() || name == "bone" || name == "removed" || name == "picture" || name == "film";
+      name.empty() || std::any_of(std::begin(kAll), std::end(kAll),
+                                  [&](ExportWhat one) { return name == name_of(one); });
   return (ours ? whole.parent_path() / name_of(what) : whole).string() + ending;
 }
 
 bool already_there(const ExportRequest& request) {
   std::error_code nobody_asks;
-  return request.what == ExportWhat::film ? holds_film(request.path)
-                                          : fs::exists(request.path, nobody_asks);
+  if (request.what == ExportWhat::film) return holds_film(request.path);
+  return fs::exists(request.what == ExportWhat::pieces ? numbered(request.path, 1) : request.path,
+                    nobody_asks);
 }
 
 Status check_request(const ExportRequest& request) {
@@ -109,7 +121,8 @@ Status check_request(const ExportRequest& request) {
 
 Result<ExportDone> write_export(const ExportRequest& request, const volume::Bone& bone,
                                 rt::ChangedBits& changed, const volume::Bone* before,
-                                const render::Image* picture, Progress& progress) {
+                                const edit::PieceStore& store, const render::Image* picture,
+                                Progress& progress) {
   if (request.what == ExportWhat::picture) {
     const Status written = picture != nullptr ? render::write_png(*picture, request.path)
                                               : Status(error("no picture"));
@@ -118,10 +131,22 @@ Result<ExportDone> write_export(const ExportRequest& request, const volume::Bone
   }
   const auto now = volume::shared_copy(bone, changed, progress);
   if (!now) return now.error();
+  if (request.what == ExportWhat::pieces) {
+    // the user was asked whether files may be replaced
+    const auto may_write = [](const std::string&) { return fine(); };
+    const auto written =
+        write_pieces(**now, request.path, options_of(request.what), may_write, progress, store);
+    if (!written) return written.error();
+    double volume = 0;
+    for (const PieceFiles::One& one : written->files) volume += one.volume;
+    return ExportDone{
+        .path = written->files.front().path, .volume = volume, .pieces = written->files.size()};
+  }
   const auto exported = io::export_part(before != nullptr ? *before : **now, **now, request.path,
                                         options_of(request.what), progress);
   if (!exported) return exported.error();
-  return ExportDone{request.path, exported->volume, exported->triangles, 0};
+  return ExportDone{
+      .path = request.path, .volume = exported->volume, .triangles = exported->triangles};
 }
 
 }  // namespace burr::app

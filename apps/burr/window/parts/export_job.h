@@ -1,5 +1,5 @@
 // apps/burr/window/parts/export_job.h - what can be written from a running session: the bone, the
-// removed part, a picture, or a film; without any use of the window.
+// removed or added part, each piece by itself, a picture, or a film; without any use of the window.
 //
 // Thread: any, except where stated.
 #pragma once
@@ -10,17 +10,22 @@
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/edit/piece_store.h"
 #include "burr/render/image.h"
 #include "burr/rt/changed_bits.h"
 #include "burr/volume/bone.h"
 
 namespace burr::app {
 
-enum class ExportWhat { bone, removed, picture, film };
+enum class ExportWhat { bone, removed, added, pieces, picture, film };
+// It compares with the bone at the first tick.
+[[nodiscard]] inline bool needs_before(ExportWhat what) {
+  return what == ExportWhat::removed || what == ExportWhat::added;
+}
 
 struct ExportRequest {
   ExportWhat what = ExportWhat::bone;
-  std::string path;  // for a film of pictures: their folder
+  std::string path;  // for a film of pictures: their folder; for pieces: a number follows the name
 };
 
 // The possible endings, ".stl" for example; the first is the usual one. A film without ending is a
@@ -33,7 +38,7 @@ struct ExportRequest {
 // The ending of the path, one of endings_of(what), small letters; "": it has none of them.
 [[nodiscard]] std::string ending_of(const std::string& path, ExportWhat what);
 
-// True: a file or film of this name exists.
+// True: a file or film of this name exists, or the first piece.
 [[nodiscard]] bool already_there(const ExportRequest& request);
 
 // Says in one sentence why the request is not possible: unknown ending, no such folder, or the path
@@ -46,14 +51,16 @@ struct ExportDone {
   double volume = 0;          // 0 for a picture  [m^3]
   std::size_t triangles = 0;  // 0 if it is not a mesh
   int pictures = 0;           // in a film
+  std::size_t pieces = 0;     // so many files; path is that of the largest
 };
 
-// Copies the bone while the servo cuts it, and writes the file. before: the bone at the first tick;
-// needed only for the removed part. changed: a watcher of the bone that no one else uses. The bone
+// Copies the bone while the servo cuts it, and writes the file. before: the bone at the first tick, if
+// needs_before(). store: of the pieces that were moved. changed: a watcher of the bone that no one else uses. The bone
 // must outlive the work. For films see film_job.h.
 [[nodiscard]] Result<ExportDone> write_export(const ExportRequest& request,
                                               const volume::Bone& bone, rt::ChangedBits& changed,
                                               const volume::Bone* before,
+                                              const edit::PieceStore& store,
                                               const render::Image* picture, Progress& progress);
 
 }  // namespace burr::app

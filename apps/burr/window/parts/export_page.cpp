@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "burr/render/picture.h"
 #include "shared/front_words.h"
 #include "shared/helper_process.h"
+#include "shared/piece_files.h"
 #include "shared/word_names.h"
+#include "window/parts/documents_folder.h"
 #include "window/parts/hud.h"
 #include "window/ui/loading.h"
 #include "window/ui/typed_path.h"
@@ -23,8 +24,7 @@ using Letter = Ui::Letter;
 ExportPage::ExportPage(Desk& desk, sim::Session* session, const render::Scene& scene,
                        const std::string& folder, FilmOf film_of)
     : desk_(desk), session_(session), scene_(scene), film_of_(std::move(film_of)) {
-  std::error_code nobody_asks;
-  const fs::path where = folder.empty() ? fs::current_path(nobody_asks) : fs::path(folder);
+  const fs::path where = folder.empty() ? documents_folder() : fs::path(folder);
   if (session_ != nullptr) {
     changed_ = &session_->bone().add_watcher();
     request_.path = (where / "bone.stl").string();
@@ -79,27 +79,42 @@ void ExportPage::ask(bool may_replace) {
     return;
   }
   writing_ = request_;
-  if (request_.what == ExportWhat::film) {
-    const std::optional<FilmSource> source = film();
-    if (!source) {
-      trouble_ = word(Word::film_of_nothing);
-      return;
-    }
-    if (const Status possible = check_film(request_.path, source->plan.size); !possible) {
-      trouble_ = in_options(possible.error()).text;
-      return;
-    }
-    work_ = std::make_unique<Loading<ExportDone>>(
-        [source = *source, path = request_.path](Progress& progress) -> Result<ExportDone> {
-          const Result<int> made = write_film(source, path, progress);
-          if (!made) return made.error();
-          return ExportDone{.path = path, .pictures = *made};
-        });
-    show(false);
+  if (request_.what == ExportWhat::film)
+    write_film_asked();
+  else
+    write_asked();
+}
+
+void ExportPage::write_film_asked() {
+  const std::optional<FilmSource> source = film();
+  if (!source) {
+    trouble_ = word(Word::film_of_nothing);
     return;
   }
+  if (const Status possible = check_film(request_.path, source->plan.size); !possible) {
+    trouble_ = in_options(possible.error()).text;
+    return;
+  }
+  work_ = std::make_unique<Loading<ExportDone>>(
+      [source = *source, path = request_.path](Progress& progress) -> Result<ExportDone> {
+        const Result<int> made = write_film(source, path, progress);
+        if (!made) return made.error();
+        return ExportDone{.path = path, .pictures = *made};
+      });
+  show(false);
+}
+
+void ExportPage::write_asked() {
+  std::optional<edit::PieceStore> store;
+  if (request_.what == ExportWhat::pieces) {
+    store = pieces_of_ ? pieces_of_() : edit::PieceStore();
+    if (!store) {
+      trouble_ = word(Word::export_piece_out);
+      return;
+    }
+  }
   before_.reset();
-  if (request_.what == ExportWhat::removed) {
+  if (needs_before(request_.what)) {
     const bool ran = session_->running();
     session_->stop();
     before_ = session_->bone_before();
@@ -119,13 +134,14 @@ void ExportPage::ask(bool may_replace) {
   }
   work_ = std::make_unique<Loading<ExportDone>>(
       [this, request = request_, before = std::exchange(before_, nullptr),
+       store = store.value_or(edit::PieceStore()),
        picture](Progress& progress) -> Result<ExportDone> {
         if (session_ == nullptr) {
           const Status written = render::write_png(*picture, request.path);
           return written ? Result<ExportDone>(ExportDone{.path = request.path}) : written.error();
         }
-        return write_export(request, session_->bone(), *changed_, before.get(), picture.get(),
-                            progress);
+        return write_export(request, session_->bone(), *changed_, before.get(), store,
+                            picture.get(), progress);
       });
   show(false);
 }
@@ -147,6 +163,8 @@ ExportPage::Note ExportPage::step() {
     return {};
   }
   if (done->pictures > 0) return {say(Word::film_done, done->path, done->pictures), true};
+  if (done->pieces > 0)
+    return {say(Word::export_pieces_done, done->pieces, done->path, 1e9 * done->volume), true};
   if (done->triangles > 0)
     return {say(Word::export_mesh, done->path, 1e9 * done->volume, done->triangles), true};
   if (done->volume > 0) return {say(Word::export_volume, done->path, 1e9 * done->volume), true};
@@ -173,6 +191,54 @@ bool choice(float u, float& at, float top, const char* text, bool chosen, float 
 constexpr PictureSize kFilmSizes[] = {{1280, 720}, {1920, 1080}, {3840, 2160}};
 
 }  // namespace
+
+// What is to be written.
+void ExportPage::draw_choices(float x, float y) {
+  const float u = desk_.ui().unit();
+  float at = x;
+  for (const auto& [what, name] : {std::pair{ExportWhat::bone, Word::export_bone},
+                                   {ExportWhat::removed, Word::export_removed},
+                                   {ExportWhat::added, Word::export_added},
+                                   {ExportWhat::pieces, Word::export_pieces},
+                                   {ExportWhat::picture, Word::export_picture},
+                                   {ExportWhat::film, Word::export_film}}) {
+    const ExportWhat one = what;  // a lambda may not capture a structured binding
+    if (session_ == nullptr && one != ExportWhat::picture && one != ExportWhat::film) continue;
+    if (!choice(u, at, y, word(name), request_.what == one, 116 * u)) continue;
+    std::string ending = ending_of(request_.path, one);
+    if (ending.empty() && !endings_of(one).empty()) ending = endings_of(one).front();
+    if (one == ExportWhat::film && program_in_path("ffmpeg").empty()) ending.clear();
+    request_.what = one;
+    request_.path = path_for(request_.path, one, ending);
+    replaces_ = false;
+    trouble_.clear();
+  }
+}
+
+// The reason against the request, how far the export is, or what pieces are. foot: it ends there.
+void ExportPage::draw_line(float x, float y, float wide, float foot) {
+  const bool warns = replaces_ || !trouble_.empty();
+  const std::string name = fs::path(request_.path).filename().string();
+  std::string line = replaces_          ? say(Word::export_exists, name)
+                     : trouble_.empty() ? progress()
+                                        : trouble_;
+  const bool pieces = request_.what == ExportWhat::pieces;
+  if (line.empty() && pieces) line = say(Word::export_pieces_told, numbered(name, 1));
+  if (line.empty()) return;
+  const float u = desk_.ui().unit();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  float from = x;
+  if (warns) {
+    const float cx = from + 8 * u, cy = y + 9 * u, r = 8 * u;
+    draw.AddTriangleFilled({cx - r, cy + 0.8F * r}, {cx + r, cy + 0.8F * r}, {cx, cy - 0.9F * r},
+                           ink::kWarn);
+    from += 26 * u;
+  }
+  const ImFont* font = desk_.ui().font(Letter::body);
+  draw.PushClipRect({x, y}, {x + wide, foot}, true);
+  draw.AddText(font, font->FontSize, {from, y}, ink::kText, line.c_str(), nullptr, x + wide - from);
+  draw.PopClipRect();
+}
 
 // The row of endings; for a film also pictures, and sizes.
 void ExportPage::draw_endings(float x, float y) {
@@ -233,27 +299,12 @@ void ExportPage::draw() {
   Ui& ui = desk_.ui();
   if (dialog_.open()) return dialog_.draw(ui);
   const bool is_film = request_.what == ExportWhat::film;
-  const float u = ui.unit(), w = 720 * u, h = (is_film ? 352 : 330) * u;
+  const float u = ui.unit(), w = 800 * u, h = (is_film ? 352 : 330) * u;
   const float x = (ui.width() - w) / 2, y = std::max(6 * u, (ui.height() - h) / 2 - 40 * u);
   ui.page("##export", x, y, w, h);
   ui.write(x + 28 * u, y + 22 * u, Letter::large, ink::kText, word(Word::export_title));
 
-  float at = x + 28 * u;
-  for (const auto& [what, name] : {std::pair{ExportWhat::bone, Word::export_bone},
-                                   {ExportWhat::removed, Word::export_removed},
-                                   {ExportWhat::picture, Word::export_picture},
-                                   {ExportWhat::film, Word::export_film}}) {
-    const ExportWhat one = what;  // a lambda may not capture a structured binding
-    if (session_ == nullptr && (one == ExportWhat::bone || one == ExportWhat::removed)) continue;
-    if (!choice(u, at, y + 66 * u, word(name), request_.what == one, 158 * u)) continue;
-    std::string ending = ending_of(request_.path, one);
-    if (ending.empty() && !endings_of(one).empty()) ending = endings_of(one).front();
-    if (one == ExportWhat::film && program_in_path("ffmpeg").empty()) ending.clear();
-    request_.what = one;
-    request_.path = path_for(request_.path, one, ending);
-    replaces_ = false;
-    trouble_.clear();
-  }
+  draw_choices(x + 28 * u, y + 66 * u);
   draw_endings(x + 28 * u, y + 112 * u);
 
   ImGui::SetCursorScreenPos({x + 28 * u, y + 160 * u});
@@ -267,28 +318,7 @@ void ExportPage::draw() {
 
   if (is_film) draw_film_plan(x + 28 * u, y + 202 * u);
 
-  // the reason against the request, or how far the export is
-  const std::string& line =
-      replaces_          ? say(Word::export_exists, fs::path(request_.path).filename().string())
-      : trouble_.empty() ? progress()
-                         : trouble_;
-  if (!line.empty()) {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float top = y + (is_film ? 250 : 204) * u;
-    float from = x + 28 * u;
-    if (replaces_ || !trouble_.empty()) {
-      const float cx = from + 8 * u, cy = top + 9 * u, r = 8 * u;
-      draw.AddTriangleFilled({cx - r, cy + 0.8F * r}, {cx + r, cy + 0.8F * r}, {cx, cy - 0.9F * r},
-                             ink::kWarn);
-      from += 26 * u;
-    }
-    const ImFont* font = ui.font(Letter::body);
-    draw.PushClipRect({x, y}, {x + w, y + h - 60 * u}, true);
-    draw.AddText(font, font->FontSize, {from, top}, ink::kText, line.c_str(), nullptr,
-                 x + w - 28 * u - from);
-    draw.PopClipRect();
-  }
-
+  draw_line(x + 28 * u, y + (is_film ? 250 : 204) * u, w - 56 * u, y + h - 60 * u);
   draw_buttons(x + w - 28 * u, y + h - 54 * u, entered);
   ImGui::End();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "shared/word_names.h"
 #include "window/parts/hud.h"
@@ -23,14 +24,14 @@ ImU32 colour_of(report::Tone tone) {
     case report::Tone::bad:
       return ink::kBad;
     case report::Tone::open:
-      return ink::kDim;
+      return ink::kAccent;
     case report::Tone::none:
       break;
   }
-  return ink::kText;
+  return ink::kDim;
 }
 
-// A sign beside the word, so that not only a colour shows the mark: a tick, a cross, a ring.
+// A sign beside the word, so that not only a colour shows the mark: a tick, a cross, a ring, a dash.
 void sign(ImDrawList& draw, ImVec2 c, float u, report::Tone tone) {
   const ImU32 shade = colour_of(tone);
   const float r = 5 * u;
@@ -42,6 +43,8 @@ void sign(ImDrawList& draw, ImVec2 c, float u, report::Tone tone) {
     draw.AddLine({c.x - r, c.y + r}, {c.x + r, c.y - r}, shade, 2 * u);
   } else if (tone == report::Tone::open) {
     draw.AddCircle(c, 0.8F * r, shade, 16, 1.5F * u);
+  } else {
+    draw.AddLine({c.x - r, c.y}, {c.x + r, c.y}, shade, 1.5F * u);
   }
 }
 
@@ -81,30 +84,31 @@ class Column {
   float u_;
 };
 
-// Each gate that was not held; of the others only how many.
-void draw_gates(Column& column, const report::Report& report) {
+// Each item of safety that is not met; of the others only how many.
+void draw_safety(Column& column, const report::Report& report) {
   if (report.gates.empty()) return;
   column.heading(word(Word::report_safety));
-  std::size_t held = 0;
-  std::map<std::string, std::size_t> open;  // by the word for it
+  std::size_t met = 0;
+  std::map<std::pair<report::Tone, std::string>, std::size_t> open;
   for (const report::ReportGate& gate : report.gates) {
     if (gate.mark.tone == report::Tone::bad)
       column.marked(gate.mark.tone, gate.text,
                     gate.mark.word + (gate.when.empty() ? "" : ", " + gate.when));
-    held += gate.mark.tone == report::Tone::good ? 1 : 0;
-    if (gate.mark.tone == report::Tone::open) ++open[gate.mark.word];
+    met += gate.mark.tone == report::Tone::good ? 1 : 0;
+    if (gate.mark.tone == report::Tone::open || gate.mark.tone == report::Tone::none)
+      ++open[{gate.mark.tone, gate.mark.word}];
   }
-  column.marked(held == report.gates.size() ? report::Tone::good : report::Tone::none,
-                say(Word::review_gates, held, report.gates.size()), "");
-  for (const auto& [text, count] : open)
-    column.marked(report::Tone::open, fmt::format("{} {}", count, text), "");
+  column.marked(met == report.gates.size() ? report::Tone::good : report::Tone::none,
+                say(Word::review_safety, met, report.gates.size()), "");
+  for (const auto& [mark, count] : open)
+    column.marked(mark.first, fmt::format("{} {}", count, mark.second), "");
 }
 
-// What matters most, at the left: gates, totals, own marks, what to do next.
+// What matters most, at the left: safety, totals, own marks, what to do next.
 void draw_left(const Ui& ui, const report::Report& report) {
   Column column(ui);
   column.write(Letter::body, ink::kWarn, report.unfinished);
-  draw_gates(column, report);
+  draw_safety(column, report);
   column.heading(word(Word::report_totals));
   for (const report::ReportPart& part : report.parts) {
     column.write(Letter::small, ink::kDim, part.title);
@@ -191,7 +195,7 @@ const report::ReportItem* draw_items(const Ui& ui, const report::Report& report)
     ImGui::TableSetupScrollFreeze(0, 1);
     if (report.has_self)
       ImGui::TableSetupColumn(report.you.c_str(), ImGuiTableColumnFlags_WidthFixed, 104 * u);
-    ImGui::TableSetupColumn(report.machine.c_str(), ImGuiTableColumnFlags_WidthFixed, 104 * u);
+    ImGui::TableSetupColumn(report.machine.c_str(), ImGuiTableColumnFlags_WidthFixed, 124 * u);
     ImGui::TableSetupColumn(word(Word::report_item), ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn(word(Word::review_evidence), ImGuiTableColumnFlags_WidthFixed, 108 * u);
     ImGui::TableHeadersRow();

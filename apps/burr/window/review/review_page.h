@@ -1,5 +1,5 @@
 // apps/burr/window/review/review_page.h - the page at the end of a case: what the machine found, beside
-// the learner's own marks. Gates apart; no grade, no pass, no total without its items.
+// the learner's own marks. Safety apart; no grade, no pass, no total without its items.
 //
 // Takes plain data and says what was pressed. Thread: main, between Ui::begin() and draw().
 #pragma once
