@@ -25,7 +25,7 @@ find_package(PNG REQUIRED)  # pictures of AMBF's volumes and of stacks; stb only
 find_package(TIFF 4.5 REQUIRED)  # stacks of pictures
 pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)  # and their description
 find_package(meshoptimizer REQUIRED)
-pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # meshes of tools; in tests, reads back what burr writes
+pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # in tests alone: reads back the meshes that burr writes, and reads what burr reads
 find_path(BURR_GDCM_INCLUDE gdcmImageReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
 find_library(BURR_GDCM_MSFF gdcmMSFF REQUIRED)
 find_library(BURR_GDCM_DSED gdcmDSED REQUIRED)

@@ -1,4 +1,4 @@
-# burr-read: reads one scan in a process of its own (src/burr/io/sandbox/fence.h). It contains the
+# burr-read: reads one scan or one mesh in a process of its own (src/burr/io/sandbox/fence.h). It contains the
 # readers and what they need, so it starts in milliseconds. libburr contains only what both sides
 # need, and no codec.
 include(cmake/letters.cmake)
@@ -10,10 +10,11 @@ set(BURR_READERS io/read/archive.cpp io/read/beside.cpp io/read/compare_frames.c
   io/read/dicom_header.cpp io/read/dicom_labels.cpp io/read/dicom_pixels.cpp io/read/dicom_seg.cpp io/read/dicom_seg_frames.cpp
   io/read/dicom_series.cpp io/read/dicom_slices.cpp io/read/dicom_stack.cpp io/read/dicom_syntaxes.cpp io/read/dicom_volumes.cpp
   io/read/dicomdir.cpp io/read/foreign.cpp io/read/geometry.cpp io/read/grey_picture.cpp io/read/inverted.cpp io/read/letters.cpp
-  io/read/merge_structures.cpp io/read/modality.cpp io/read/nrrd_header.cpp io/read/nrrd_segments.cpp io/read/nrrd_shape.cpp
-  io/read/picture_scale.cpp io/read/picture_stack.cpp io/read/png.cpp io/read/read_adf.cpp io/read/read_dicom.cpp io/read/read_meta.cpp
-  io/read/read_nifti.cpp io/read/read_nrrd.cpp io/read/read_unfenced.cpp io/read/several_volumes.cpp io/read/stack_names.cpp
-  io/read/tiff.cpp io/read/volume_folder.cpp io/read/yaml.cpp io/sandbox/fence_child.cpp)
+  io/read/merge_structures.cpp io/read/mesh_builder.cpp io/read/mesh_text.cpp io/read/modality.cpp io/read/nrrd_header.cpp
+  io/read/nrrd_segments.cpp io/read/nrrd_shape.cpp io/read/picture_scale.cpp io/read/picture_stack.cpp io/read/ply_header.cpp
+  io/read/png.cpp io/read/polygon.cpp io/read/read_adf.cpp io/read/read_dicom.cpp io/read/read_mesh_unfenced.cpp io/read/read_meta.cpp
+  io/read/read_nifti.cpp io/read/read_nrrd.cpp io/read/read_obj.cpp io/read/read_ply.cpp io/read/read_stl.cpp io/read/read_unfenced.cpp
+  io/read/several_volumes.cpp io/read/stack_names.cpp io/read/tiff.cpp io/read/volume_folder.cpp io/read/yaml.cpp io/sandbox/fence_child.cpp)
 list(TRANSFORM BURR_BOTH_SIDES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 list(TRANSFORM BURR_READERS PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)
 

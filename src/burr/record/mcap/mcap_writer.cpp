@@ -11,6 +11,7 @@
 
 #include "burr/base/check.h"
 #include "burr/base/disk_words.h"
+#include "burr/base/plain_file.h"
 #include "burr/base/version.h"
 #include "burr/record/file_lock.h"
 #include "burr/record/mcap/crc32.h"
@@ -86,12 +87,15 @@ McapWriter::~McapWriter() {
 Status McapWriter::open(const std::string& path, const std::string& shown) {
   BURR_CHECK(file_ < 0);
   shown_ = shown;
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (Status plain = base::check_plain_file(path, shown); !plain) return plain;
+  // for this user alone: a recording holds how somebody moved, and may hold who it was
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file_ < 0) return trouble(shown_, "be written");
   const FileLock got = lock(file_);
   locked_ = got == FileLock::taken;
   if (got == FileLock::of_another)
     return error(Trouble::io, shown_ + ": another burr is writing this file; choose another name");
+  static_cast<void>(::fchmod(file_, 0600));  // one that was there and is replaced, too
   const Status begun = begin(path);
   if (!begun.ok()) ::unlink(path.c_str());
   return begun;
