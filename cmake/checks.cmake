@@ -88,6 +88,8 @@ if(Python3_FOUND)
   add_test(NAME house.school COMMAND ${checks}/school.sh ${CMAKE_BINARY_DIR})
   set_tests_properties(house.school PROPERTIES TIMEOUT 300)
 endif()
+add_test(NAME house.web COMMAND ${checks}/web.sh ${CMAKE_BINARY_DIR})
+set_tests_properties(house.web PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 add_test(NAME house.recording_trouble COMMAND ${checks}/recording_trouble.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(house.recording_trouble PROPERTIES TIMEOUT 300)
 add_test(NAME house.install COMMAND ${checks}/install.sh ${CMAKE_BINARY_DIR})
@@ -252,6 +254,10 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   add_test(NAME page COMMAND ${checks}/page.sh ${CMAKE_BINARY_DIR})
   set_tests_properties(page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long
     FIXTURES_REQUIRED portable_web)
+
+  # how a page is published, kept and bound, with a small one: needs no build
+  add_test(NAME page_published COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/web/tests/publish_test.py)
+  set_tests_properties(page_published PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 LABELS long)
 
   # the instructor's page, in a browser; its replay draws with the page that portable.web has built
   add_test(NAME school_page COMMAND ${checks}/school_page.sh ${CMAKE_BINARY_DIR})

@@ -55,7 +55,7 @@ install(FILES ${CMAKE_BINARY_DIR}/burrConfig.cmake ${CMAKE_BINARY_DIR}/burrConfi
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/burr COMPONENT development)
 # examples to start from; the program contains them too
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/cases/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/cases COMPONENT program FILES_MATCHING PATTERN "*.toml")
-# the page, where it was built (cmake --build --preset web); `burr web` copies it
-if(EXISTS ${CMAKE_BINARY_DIR}/../web/site/burr_page.wasm)
-  install(DIRECTORY ${CMAKE_BINARY_DIR}/../web/site/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/web COMPONENT program)
+# the page, where it was built (scripts/build_page.sh); `burr web` copies it, and it is a package of its own
+if(EXISTS ${CMAKE_BINARY_DIR}/../web/published/version.json)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/../web/published/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/web COMPONENT web)
 endif()

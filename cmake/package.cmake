@@ -1,4 +1,5 @@
-# Packages for the Debian on which burr was built, 12 or 13: burr, libburr0, libburr-dev, and python3-burr where the module was built (scripts/package.sh).
+# Packages for the Debian on which burr was built, 12 or 13: burr, libburr0, libburr-dev, python3-burr where the module was built,
+# and burr-web, for every processor, where the page was built (scripts/package.sh).
 # Which file goes where is the component of each install() in cmake/install.cmake.
 set(BURR_PACKAGE_DIR ${CMAKE_BINARY_DIR}/package)
 
@@ -27,6 +28,9 @@ if(TARGET burr_python)
   list(APPEND packages python:python3-burr)
 endif()
 set(CPACK_COMPONENTS_ALL "")
+if(EXISTS ${CMAKE_BINARY_DIR}/../web/published/version.json)
+  list(APPEND packages web:burr-web)
+endif()
 foreach(one ${packages})
   string(REPLACE ":" ";" one ${one})
   list(GET one 0 component)
@@ -67,8 +71,16 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "simulator for cutting bone by hand 
 find_package(burr) with the targets burr::burr and burr::core.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "simulator for cutting bone by hand (Python module)
 Bones, sessions, recordings and scores from Python, with numpy.")
+set(CPACK_COMPONENT_WEB_DESCRIPTION "simulator for cutting bone by hand (page for browsers)
+burr compiled for browsers, ready for any web server: it mills, marks and
+replays in the browser alone, and works without a network after the first
+visit. Settings for nginx, Apache and Caddy lie beside it.")
+set(CPACK_DEBIAN_WEB_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_WEB_PACKAGE_SECTION web)
+set(CPACK_DEBIAN_WEB_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_WEB_PACKAGE_SUGGESTS "burr, nginx | httpd")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-inter")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "ffmpeg, libgl1-mesa-dri, libegl1, libspnav0")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "burr-web, ffmpeg, libgl1-mesa-dri, libegl1, libspnav0")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "parallel, slurm-client, postgresql")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)

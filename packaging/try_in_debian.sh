@@ -45,6 +45,7 @@ man -w burr burr-mill burr-learner-xapi-on 7 burr
 source /usr/share/bash-completion/bash_completion
 _completion_loader burr || [ $? = 124 ] # it was loaded: try again
 complete -p burr
+if dpkg-query -W burr-web >/dev/null 2>&1; then burr web --out page && test -f page/mill/index.html; fi
 if dpkg-query -W python3-burr >/dev/null 2>&1; then python3 -c 'import burr; print("import burr:", burr.__version__)'; fi
 X
 su user -s /bin/bash /tmp/use.sh

@@ -1,9 +1,10 @@
 # The page: burr in a browser. Everything that only a browser has lies here; the rooms of src/burr are compiled as they are.
 #
-#     cmake --preset web && cmake --build --preset web        -> build/web/site, a folder for any static host
+#     cmake --preset web && cmake --build --preset web        -> build/web/published, a folder for any static host (scripts/build_page.sh)
 #
 # One WebAssembly module, burr_page, is loaded twice: in the page, where it draws, and in a worker, where it ticks. What is not needed for
-# the first cut is in modules of its own.
+# the first cut is in modules of its own. No JavaScript that emscripten writes makes code of text: the page's policy forbids it.
+add_link_options(-sDYNAMIC_EXECUTION=0)
 
 # header-only libraries of this machine, alone: beside them in /usr/include lie the headers of another C library
 set(headers ${CMAKE_BINARY_DIR}/web/headers)
@@ -174,4 +175,11 @@ add_custom_command(OUTPUT ${site}/words.json
     ${PROJECT_SOURCE_DIR}/rubrics/temporal_bone.toml ${site}/case.json
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/web/words.py ${PROJECT_SOURCE_DIR} ${site}/words.json
   DEPENDS burr_page burr_score burr_sound burr_import burr_replay ${codecs}/licences.txt ${pages} ${word_files} ${PROJECT_SOURCE_DIR}/web/words.py ${web_dir}/case.py COMMENT "The pages: ${site}" VERBATIM)
-add_custom_target(site ALL DEPENDS ${site}/words.json)
+
+# as it is shipped: parts in a folder that their hash names, packed, with the files that hosts read
+set(published ${CMAKE_BINARY_DIR}/published)
+file(GLOB publishing CONFIGURE_DEPENDS ${web_dir}/publish/*)
+add_custom_command(OUTPUT ${published}/version.json
+  COMMAND Python3::Interpreter -B ${web_dir}/publish/publish.py ${site} ${published} ${PROJECT_VERSION}
+  DEPENDS ${site}/words.json ${publishing} COMMENT "The page for hosts: ${published}" VERBATIM)
+add_custom_target(site ALL DEPENDS ${published}/version.json)

@@ -27,6 +27,21 @@ if [ -d "$build/python/burr" ]; then
 fi
 libraries=$(dirname "$(find "$root" -name libburr.so.0)")
 
+page=$build/../web/published
+if [ -f "$page/version.json" ]; then
+  web=$place/out/burr-web_${version}_all.deb
+  [ -f "$web" ] || wrong "there is no package burr-web for all processors"
+  [ "$(dpkg-deb -f "$web" Architecture)" = all ] || wrong "burr-web is not for all processors"
+  [ -z "$(dpkg-deb -f "$web" Depends)" ] || wrong "burr-web needs something: $(dpkg-deb -f "$web" Depends)"
+  diff -r "$page" "$root/usr/share/burr/web" || wrong "burr-web holds another page"
+  while read -r pattern; do
+    compgen -G "$root/$pattern" >/dev/null || wrong "packaging/copyright: $pattern is not in burr-web"
+  done < <(grep -oE 'usr/share/burr/web/[^ ]+' packaging/copyright)
+  archive=$place/out/burr-web-${version%-*}.tar.gz
+  tar -xzf "$archive" -C "$place"
+  diff -r "$page" "$place/burr-web-${version%-*}" || wrong "$archive holds another page"
+fi
+
 # no path of this computer, neither where libraries are looked for nor in a text
 while read -r -d '' file; do
   ! readelf -d "$file" 2>/dev/null | grep -E 'R(UN)?PATH' || wrong "$file: has a path of its own to libraries"
@@ -38,6 +53,11 @@ run --version
 run --quiet phantom ball --voxel-mm 1 --out "$place/ball.nrrd"
 run --quiet info "$place/ball.nrrd" >/dev/null
 run --quiet mill tooth --motion plunge --json >/dev/null # its bone comes from the package
+
+if [ -f "$page/version.json" ]; then # without what could build it
+  PATH=/usr/sbin run web --out "$place/page"
+  diff -r "$page" "$place/page" || wrong "burr web wrote another page than that of burr-web"
+fi
 
 if [ -d "$root/usr/lib/python3" ]; then
   LD_LIBRARY_PATH=$libraries PYTHONPATH=$root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -c '

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The page, burr in a browser: opens, mills, records, in Chromium without a screen (web/tests/page_test.py), and
 # has the course of a session: steps, score, report, sound (web/tests/course_test.py). The page is the
-# one that scripts/checks/portable.sh web has built. First its codecs, by node (tests/web/page_codecs.h).
+# one that scripts/checks/portable.sh web has built. First its codecs, by node (tests/web/page_codecs.h); at the end
+# the page as it is shipped (web/tests/shipped_test.py).
 #
 #     scripts/checks/page.sh BUILD [PICTURES]      PICTURES: a folder that keeps the screenshots
 #
@@ -16,17 +17,15 @@ for tool in em++ node npm chromium; do
     exit 77
   fi
 done
-[ -f build/web/site/burr_page.wasm ] || { echo "page: is not built; run scripts/checks/portable.sh web $1 first"; exit 1; }
+[ -f build/web/published/version.json ] || { echo "page: is not built; run scripts/checks/portable.sh web $1 first"; exit 1; }
 
-# the folder that a user gets is what is tested
+# the modules and pages as they were built; then the folder that a user gets, which is these in another order
+BURR_SITE=build/web/site "$build/test_web" --gtest_brief=1 --gtest_filter='PageCodecs*'
+python3 web/tests/page_test.py build/web/site "$build/burr" ${2:+"$2"}
+python3 web/tests/course_test.py build/web/site "$build/burr" ${2:+"$2"}
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 "$build/burr" web --out "$out/page"
-diff -r build/web/site "$out/page"
-"$build/burr" web --out "$out/page" >"$out/again"  # an older page is replaced
-touch "$out/mine"
-if "$build/burr" web --out "$out" 2>"$out/said"; then echo "page: burr web wrote into a folder with other files"; exit 1; fi
-grep -q "holds other files" "$out/said"
-BURR_SITE=$out/page "$build/test_web" --gtest_brief=1 --gtest_filter='PageCodecs*'
-python3 web/tests/page_test.py "$out/page" "$build/burr" ${2:+"$2"}
-python3 web/tests/course_test.py "$out/page" "$build/burr" ${2:+"$2"}
+diff -r build/web/published "$out/page"
+diff -r build/web/site "$out/page"/v-* | grep -vE '^Only in .*(\.(gz|br|html)|: offline\.js)$' && { echo "page: other parts than those that were built"; exit 1; }
+python3 web/tests/shipped_test.py "$out/page" ${2:+"$2"}

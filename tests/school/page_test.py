@@ -24,7 +24,8 @@ import uuid
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "web/tests"))
-from chromium import Chromium  # noqa: E402
+import small_site  # noqa: E402
+from chromium import Chromium, Site  # noqa: E402
 
 BURR = pathlib.Path(sys.argv[1]).resolve()
 PICTURES = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
@@ -410,15 +411,27 @@ def check_replay_answers(server, store, folder, session, recording):
     database.close()
 
 
+def check_doors(page):
+    """The page's worker asks another host and runs text as code, or tries to."""
+    with tempfile.TemporaryDirectory() as folder, Site(folder) as elsewhere:
+        for worker in (None, *page.workers):
+            tried = page.run(f"({small_site.TRY})('{elsewhere.url}')", worker)
+            same({one for one, came in tried.items() if came.startswith("worked")}, small_site.MAY, f"what works of {tried}")
+        assert page.workers and not elsewhere.asked, elsewhere.asked
+    page.troubles.clear()  # the browser says on the console what it refused
+
+
 def check_replay(page, sessions):
     """In the page: the time line, jumps to lost points, the bone; two sessions step by step."""
-    built = (BURR.parent / "../web/site/burr_page.wasm").exists()
+    built = (BURR.parent / "../web/published/version.json").exists()
     speak(page, "en")
     go(page, "/replay/" + sessions[0])
     page.wait("document.querySelector('.player')", WAIT)
     drawn = "[...document.querySelectorAll('.bone-state')].every(one => one.textContent === '')"
     stopped = "document.querySelectorAll('.bone-state.wrong').length"
     page.wait(f"{drawn} || {stopped} > 0", 4 * WAIT)
+    if built:
+        check_doors(page)
     same(page.run(stopped), 0 if built else 1, "troubles of the picture: " + page.run("document.querySelector('.bone-state').textContent"))
     moment = "document.querySelector('.figures').textContent"
     first = page.run(moment)

@@ -56,7 +56,7 @@ class Site:
 
 
 class Chromium:
-    def __init__(self, width, height):
+    def __init__(self, width, height, flags=()):
         self.width, self.height = width, height
         self.folder = tempfile.mkdtemp(prefix="burr_chromium_")
         to_read, self.to = map(_high, os.pipe())
@@ -65,7 +65,7 @@ class Chromium:
 
         # it reads from descriptor 3 and writes to 4
         self.process = subprocess.Popen(
-            [program, *FLAGS, f"--user-data-dir={self.folder}", f"--window-size={width},{height}", "about:blank"],
+            [program, *FLAGS, *flags, f"--user-data-dir={self.folder}", f"--window-size={width},{height}", "about:blank"],
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             preexec_fn=lambda: (os.dup2(to_read, 3), os.dup2(from_write, 4)), close_fds=False)
         os.close(to_read)
@@ -148,8 +148,9 @@ class Page:
         browser.listeners.append(self._hear)
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.send(domain + ".enable")
-        # workers too, which wait until their requests are watched
-        self.send("Target.setAutoAttach", {"autoAttach": True, "waitForDebuggerOnStart": True, "flatten": True})
+        # workers too, which wait until their requests are watched; not what keeps the page (sw.js), which belongs to no page
+        self.send("Target.setAutoAttach", {"autoAttach": True, "waitForDebuggerOnStart": True, "flatten": True,
+                                           "filter": [{"type": "service_worker", "exclude": True}, {}]})
         if first:
             self.send("Page.addScriptToEvaluateOnNewDocument", {"source": first})
         self.send("Emulation.setDeviceMetricsOverride", {"width": browser.width, "height": browser.height,
@@ -192,8 +193,8 @@ class Page:
 
     def run(self, script, worker=None):
         """The value of a JavaScript expression, in the page or in one of its workers; a promise is waited for."""
-        answer = self.browser.send("Runtime.evaluate", {"expression": script, "awaitPromise": True, "returnByValue": True},
-                                   worker or self.session)
+        answer = self.browser.send("Runtime.evaluate", {"expression": script, "awaitPromise": True, "returnByValue": True,
+                                                        "allowUnsafeEvalBlockedByCSP": False}, worker or self.session)
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"].get("exception", {}).get("description", "?"))
         return answer["result"].get("value")

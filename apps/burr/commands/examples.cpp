@@ -127,6 +127,7 @@ constexpr std::array kExamples = std::to_array<Example>({
     {"study curve", "marks.csv --json", "with the 95 % band of each curve"},
     {"study raters", "--store", "from the store of learners"},
     {"web", "--out page", "burr in a browser, for any web server"},
+    {"web", "--out page --from burr-web-0.1.0.tar.gz", "of an archive"},
     {"doctor", "", "look at everything"},
     {"doctor", "--fix", "write the udev rule"},
     {"check", "", "12 seconds"},

@@ -5,8 +5,6 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -63,23 +61,25 @@ Status check(const Options& options) {
   return fine();
 }
 
-// The page, burr in a browser, whose view of bones the replay uses. Empty: it is not built.
-std::map<std::string, net::Response> bone_view() {
+// The parts of the page, burr in a browser, whose view of bones the replay uses. Error: there is no page, or it is damaged.
+Result<std::map<std::string, net::Response>> bone_view() {
   std::map<std::string, net::Response> out;
-  const auto folder = built_page();
-  if (!folder) return out;
+  const auto page = built_page();
+  if (!page) return page.error();
   const std::map<std::string, std::string> types = {{".js", "text/javascript; charset=utf-8"},
                                                     {".mjs", "text/javascript; charset=utf-8"},
                                                     {".wasm", "application/wasm"},
                                                     {".json", "application/json; charset=utf-8"}};
-  for (const std::filesystem::path& file : files_of_page(*folder)) {
-    const auto type = types.find(file.extension().string());
-    if (type == types.end()) continue;
-    std::ifstream in(file, std::ios::binary);
+  const std::string parts = page->parts + "/";
+  for (const auto& [path, hash] : page->files) {
+    const auto type = types.find(std::filesystem::path(path).extension().string());
+    if (type == types.end() || !path.starts_with(parts)) continue;
+    auto bytes = file_of_page(*page, path);
+    if (!bytes) return bytes.error();
     net::Response part;
     part.type = type->second;
-    part.body.assign(std::istreambuf_iterator<char>(in), {});
-    out["/page/" + std::filesystem::relative(file, *folder).string()] = std::move(part);
+    part.body = std::move(*bytes);
+    out["/page/" + path.substr(parts.size())] = std::move(part);
   }
   return out;
 }
@@ -118,7 +118,8 @@ Status run(const Options& options) {
     guard.station_token = *stations;
   }
   guard.tls = !options.door.certificate.empty();
-  const auto view = bone_view();
+  const auto found = bone_view();
+  const auto view = found ? *found : std::map<std::string, net::Response>();
   Replays replays;
   Stations stations;
   RatingDesk desk(**store);
@@ -138,8 +139,7 @@ Status run(const Options& options) {
   });
   if (!server) return server.error();
   guard.hosts = hosts_of(options, (*server)->port());
-  if (view.empty())
-    fmt::print(stderr, "the page can replay no session in 3D: {}\n", built_page().error().text);
+  if (!found) fmt::print(stderr, "the page can replay no session in 3D: {}\n", found.error().text);
   fmt::print(
       "store: {}\nOpen this address in a browser. Whoever has it can read the store:\n  "
       "{}://{}/#token={}\n",

@@ -1,5 +1,6 @@
 // A scan of the user's becomes bone: asks for files, the level, the region and the memory, as the window does in
 // more detail. The files go to a worker of this page and nowhere else.
+import {bound_worker} from './bound_worker.js';
 import * as words from './words.js';
 
 const {word, number} = words;
@@ -73,7 +74,7 @@ function build() {
 
 function read(files) {
   close_worker();
-  worker = new Worker(new URL('import_worker.js', import.meta.url), {type: 'module'});
+  worker = bound_worker(new URL('import_worker.js', import.meta.url));
   worker.onmessage = ({data}) => hear(data);
   worker.onerror = (what) => {
     what.preventDefault();

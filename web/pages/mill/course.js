@@ -1,5 +1,6 @@
 // The course of a session on the page: the steps of the case beside the picture, and at the end the question, the user's own
 // marks, what burr found, and the report. What is said and decided comes from score_worker.js, which runs the window's code.
+import {bound_worker} from '../common/bound_worker.js';
 import * as words from '../common/words.js';
 
 const {word} = words;
@@ -52,7 +53,7 @@ export class Course {
     this.work = work;
     this.mode = mode;
     if (this.worker === null) {
-      this.worker = new Worker(new URL('score_worker.js', import.meta.url), {type: 'module'});
+      this.worker = bound_worker(new URL('score_worker.js', import.meta.url));
       this.worker.onmessage = ({data}) => this.hear(data);
       this.worker.onerror = (what) => this.fail(what.message || 'worker');
     }

@@ -1,5 +1,6 @@
 // The page "mill": a bone to cut, with mouse or finger. The program runs twice: here it draws the
 // picture and says where the hand is; in worker.js it ticks.
+import {bound_worker} from '../common/bound_worker.js';
 import {compile, start, trouble} from '../common/burr.js';
 import {fit, wanted_size} from '../common/canvas.js';
 import {begin_bone, show} from '../common/skin.js';
@@ -96,7 +97,7 @@ const watch = burr.watch = new Watch({
 main().catch(fail);
 
 async function main() {
-  worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
+  worker = bound_worker(new URL('worker.js', import.meta.url));
   worker.onmessage = ({data}) => hear(data);
   worker.onerror = (what) => fail(new Error(what.message || 'worker'));
   // a page that nobody sees stands still

@@ -1,5 +1,6 @@
 // The sound of the drill on the page. It is off until the user switches it on, and quiet then.
 import {compile} from '../common/burr.js';
+import {word} from '../common/words.js';
 
 const kQuiet = 0.25;  // of full scale
 
@@ -15,6 +16,7 @@ export class Sound {
     try {
       this.compiled = await compile('burr_sound.wasm');
       this.context = new AudioContext({latencyHint: 'interactive'});
+      if (!this.context.audioWorklet) throw new Error(word('no_sound'));
       await this.context.audioWorklet.addModule(new URL('sound_worklet.js', import.meta.url));
     } catch (what) {
       this.trouble = String(what?.message ?? what);

@@ -1,5 +1,6 @@
 // What the page says about the structures that must not be cut, while somebody works: the distance to the nearest, the warning of the
 // sound, one sentence about technique, and in "learn" the stop. What is said and decided comes from watch_worker.js, which runs the window's code.
+import {bound_worker} from '../common/bound_worker.js';
 import * as words from '../common/words.js';
 
 const {number} = words;
@@ -18,7 +19,7 @@ export class Watch {
   open(compiled, voxel, mode, work) {
     this.work = work;
     if (this.worker === null) {
-      this.worker = new Worker(new URL('watch_worker.js', import.meta.url), {type: 'module'});
+      this.worker = bound_worker(new URL('watch_worker.js', import.meta.url));
       this.worker.onmessage = ({data}) => this.hear(data);
       this.worker.onerror = (what) => this.fail(what.message || 'worker');
       const {port1, port2} = new MessageChannel();

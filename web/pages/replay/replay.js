@@ -1,5 +1,6 @@
 // The page "replay": a recording from a file of the user's, at any moment. The file goes to the worker of this page and
 // nowhere else.
+import {bound_worker} from '../common/bound_worker.js';
 import {compile, start, trouble} from '../common/burr.js';
 import {fit, wanted_size} from '../common/canvas.js';
 import {begin_bone, show} from '../common/skin.js';
@@ -36,7 +37,7 @@ const waiting = [];
 main().catch(fail);
 
 async function main() {
-  worker = new Worker(new URL('worker.js', import.meta.url), {type: 'module'});
+  worker = bound_worker(new URL('worker.js', import.meta.url));
   worker.onmessage = ({data}) => hear(data);
   worker.onerror = (what) => fail(new Error(what.message || 'worker'));
   const here = new Promise((go) => { come = go; });
