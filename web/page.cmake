@@ -24,13 +24,13 @@ list(FILTER render EXCLUDE REGEX
 set(phantom build shapes sculpt temporal_bone temporal_bone_model)
 list(TRANSFORM phantom REPLACE "(.+)" "${src}/phantom/\\1.cpp")
 file(GLOB mouse CONFIGURE_DEPENDS ${src}/mouse/*.cpp)
-set(record pen mcap/mcap_writer schema protobuf tick_columns bricks command_json session_schema session_info view course grid_json tool_json identity private_text bone_blob)
-set(reading player player_bone player_notes assumed_tool mcap/mcap_reader)
+set(record pen file_lock mcap/mcap_writer schema protobuf tick_columns bricks command_json session_schema session_info view course grid_json tool_json identity private_text bone_blob)
+set(reading chain player player_bone player_notes assumed_tool mcap/mcap_reader mcap/mcap_scan mcap/mcap_summary mcap/lz4_frame)
 foreach(list record reading)
   list(TRANSFORM ${list} REPLACE "(.+)" "${src}/record/\\1.cpp")
 endforeach()
 list(APPEND record ${src}/sim/session_words.cpp ${src}/scenario/recipe.cpp ${src}/scenario/case_text.cpp
-  ${src}/workshop/spared.cpp ${src}/base/printable.cpp ${src}/base/plain_file.cpp ${src}/base/handle.cpp)
+  ${src}/workshop/spared.cpp ${src}/base/printable.cpp ${src}/base/plain_file.cpp ${src}/base/disk_words.cpp ${src}/base/handle.cpp)
 file(GLOB web CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/*.cpp)
 list(FILTER web EXCLUDE REGEX "/whole_chunks_web\\.cpp$")
 

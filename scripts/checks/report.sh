@@ -122,7 +122,7 @@ says "$place/two.html" 'Two sessions' 'B: 3.mcap'
 printf '[marks]\n"groove.cutt" = "met"\n' >"$place/wrong.toml"
 refuses 65 'wrong.toml: line 2: groove.cutt' $report --self "$place/wrong.toml" --out "$place/c.html"
 printf '[marks]\n"groove.cut" = "yes"\n' >"$place/wrong.toml"
-refuses 65 'must be "met", "unmet" or "unknown"' $report --self "$place/wrong.toml" --out "$place/c.html"
+refuses 65 'must be "met", "not met" or "unknown"' $report --self "$place/wrong.toml" --out "$place/c.html"
 refuses 2 'must end in .html' $report --out "$place/c.pdf"
 [ -e "$place/c.html" ] && complain "a page in spite of the mistake"
 exit $bad

@@ -125,7 +125,7 @@ TEST_P(DicomTexts, AreShownInUtf8) {
   const Text& text = GetParam();
   test::SegFile seg;
   seg.characters = text.characters;
-  seg.segments = {{1, text.stored, "SRT", "T-D0050", text.stored, ""}};
+  seg.segments = {{1, text.stored, "SRT", "T-11180", text.stored, ""}};
   seg.frames = {{1, 0}, {1, 1}};
   seg.at = [](int, int i, int, int) { return i > 2 ? 1 : 0; };
   seg.write(path("seg.dcm"));
@@ -133,7 +133,7 @@ TEST_P(DicomTexts, AreShownInUtf8) {
   ASSERT_TRUE(scan.ok()) << scan.error().text;
   ASSERT_EQ(scan->label_names.size(), 1U);
   EXPECT_EQ(scan->label_names[0].name, text.utf8);
-  EXPECT_EQ(scan->label_names[0].meaning, text.utf8);
+  EXPECT_EQ(scan->label_names[0].meaning, std::string(text.utf8) + " SRT T-11180");
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -185,6 +185,12 @@ TEST_F(MaskFolder, ThreeFormatsBecomeOneLabelMapWithTheNamesOfTheFiles) {
       << all_of(*scan);
   EXPECT_TRUE(says(*scan, "One structure has no voxel and is left out: liver.")) << all_of(*scan);
   EXPECT_TRUE(says(*scan, "3 masks, one file a structure")) << all_of(*scan);
+  EXPECT_TRUE(read("#1").ok());
+  const auto second = read("#2");
+  ASSERT_FALSE(second.ok());
+  EXPECT_NE(second.error().text.find("holds one label map, and `series` names another, \"#2\""),
+            std::string::npos)
+      << second.error().text;
 }
 
 TEST_F(MaskFolder, CutAndTurnedMasksLieWhereTheyBelong) {
@@ -246,7 +252,9 @@ TEST_F(MaskFolder, BesideItsScanItIsTheSecondOfTheList) {
   ASSERT_TRUE(labels.ok()) << labels.error().text;
   EXPECT_EQ(labels->series_taken, 1);
   expect_ball_and_box(*labels, "femur", "nerve");
-  EXPECT_EQ(read("#3").error().trouble, Trouble::usage);
+  const auto third = read("#3");
+  ASSERT_FALSE(third.ok());
+  EXPECT_EQ(third.error().trouble, Trouble::usage);
   // without a word in the names that tells labels from scans
   std::filesystem::rename(path("segmentations"), path("parts"));
   const auto plain = read();
@@ -280,7 +288,7 @@ TEST_F(MaskFolder, WhatIsNoSetOfMasksStaysAsItWas) {
   EXPECT_NE(scans.error().text.find("holds 2 scans or label maps (a.mha, b.mha)"),
             std::string::npos)
       << scans.error().text;
-  const auto two = [](int i, int j, int k) { return ball(i, j, k) + 2 * box(i, j, k); };
+  const auto two = [](int i, int j, int /*k*/) { return j < 4 ? 0 : i < 10 ? 1 : 2; };
   mask("a.mha", two);
   mask("b.mha", two);
   EXPECT_FALSE(read().ok()) << "two label maps of several structures";

@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <set>
 
 #include "burr/io/read/read_scan.h"
 #include "burr/io/read/readers.h"
@@ -19,13 +20,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Half of the voxels; the readers must never see the bytes of what lies outside.
+const std::string kInside = "abcd", kOutside = "wxyz";
+
 class Paths : public test::FolderTest {
  protected:
   Paths() {
     ::alarm(120);  // opening a pipe that nobody writes to would wait for ever
     fs::create_directory(folder / "in");
-    write("outside.raw", std::string(8, 'x'));
-    write("in/inside.raw", std::string(8, 'x'));
+    write("outside.raw", kOutside + kOutside);
+    write("in/inside.raw", kInside + kInside);
+    fs::create_directory(folder / "elsewhere");
+    write("elsewhere/inside.raw", kOutside + kOutside);
     fs::create_symlink(folder / "outside.raw", folder / "in/link.raw");
     fs::create_directory(folder / "in/folder.raw");
     EXPECT_EQ(::mkfifo(path("in/pipe.raw").c_str(), 0600), 0);
@@ -60,7 +66,14 @@ class Paths : public test::FolderTest {
             "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\n"
             "ElementDataFile = " +
                 named + "\n");
-    return refusal(std::string("in/x") + end);
+    const std::string name = std::string("in/x") + end;
+    NoProgress progress;
+    if (const auto scan = read_unfenced(path(name), {}, progress); scan.ok()) {
+      EXPECT_EQ(std::set<float>(scan->values.begin(), scan->values.end()),
+                (std::set<float>{'a', 'b', 'c', 'd'}))
+          << named;
+    }
+    return refusal(name);
   }
 };
 
@@ -70,22 +83,29 @@ TEST_F(Paths, ADataFileLiesBesideItsHeader) {
     EXPECT_EQ(with_data_file("inside.raw", end), "");
     EXPECT_EQ(with_data_file("./inside.raw", end), "");
     for (const std::string& bad :
-         {std::string("../outside.raw"), path("outside.raw"), path("in/inside.raw"),
+         {std::string("../outside.raw"), path("outside.raw"),
           std::string("folder.raw/../../outside.raw"), std::string("/dev/zero"), std::string(".."),
           std::string("link.raw"), std::string("folder.raw"), std::string("pipe.raw"),
           std::string("socket.raw"), std::string("nothing.raw"), std::string("..\\outside.raw")})
       EXPECT_NE(with_data_file(bad, end), "") << bad;
+    // of a name that leads elsewhere the last part counts: the file beside the header is read, not the other one
+    for (const std::string& moved : {path("in/inside.raw"), path("elsewhere/inside.raw"),
+                                     std::string("../elsewhere/inside.raw")})
+      EXPECT_EQ(with_data_file(moved, end), "") << moved;
   }
 }
 
 TEST_F(Paths, PatternsAndListsStayInTheFolder) {
-  write("in/s1.raw", "xxxx"), write("in/s2.raw", "xxxx");
-  write("s1.raw", "xxxx"), write("s2.raw", "xxxx");
+  write("in/s1.raw", kInside), write("in/s2.raw", kInside);
+  for (const char* out : {"s1.raw", "s2.raw", "t1.raw", "t2.raw"}) write(out, kOutside);
   EXPECT_EQ(with_data_file("s%d.raw 1 2 1", ".nhdr"), "");
   EXPECT_EQ(with_data_file("LIST\ns1.raw\ns2.raw", ".nhdr"), "");
+  // read are those beside the header
+  EXPECT_EQ(with_data_file("../s%d.raw 1 2 1", ".nhdr"), "");
+  EXPECT_EQ(with_data_file("LIST\n../s1.raw\n../s2.raw", ".nhdr"), "");
   for (const char* bad :
-       {"../s%d.raw 1 2 1", "%s.raw 1 2 1", "s%n.raw 1 2 1", "s%d%d.raw 1 2 1",
-        "LIST\n../s1.raw\n../s2.raw", "LIST\ns1.raw\nlink.raw", "LIST\npipe.raw\npipe.raw"})
+       {"../t%d.raw 1 2 1", "%s.raw 1 2 1", "s%n.raw 1 2 1", "s%d%d.raw 1 2 1",
+        "LIST\n../t1.raw\n../t2.raw", "LIST\ns1.raw\nlink.raw", "LIST\npipe.raw\npipe.raw"})
     EXPECT_NE(with_data_file(bad, ".nhdr"), "") << bad;
   EXPECT_NE(with_data_file("s%d.raw 1 2 1", ".mhd"), "");
   EXPECT_NE(with_data_file("LIST\ns1.raw\ns2.raw", ".mhd"), "");

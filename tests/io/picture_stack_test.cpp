@@ -24,7 +24,7 @@ constexpr int kSlices = 12;
 // What every stack holds; of 16 bits more than a byte can hold.
 std::uint32_t value_at(int i, int j, int k, int bits) {
   const auto n = static_cast<std::uint32_t>(3 * i + 11 * j + 17 * k);
-  return bits == 8 ? n % 251 : 257 * n + 40;
+  return bits == 8 ? n % 251 : (257 * n + 40) % 65521;
 }
 
 Result<Scan> read(const std::filesystem::path& path, const ReadOptions& options = {}) {
@@ -286,6 +286,14 @@ TEST_F(PictureStack, DamagedTiffIsASentence) {
   const std::string whole = tiff.bytes();
   write_bytes(path("cut.tif"), whole.substr(0, whole.size() / 2));
   expect_refused(path("cut.tif"), "damaged TIFF picture");
+  // within a picture, and within each part of the last directory: never fewer pictures without a word
+  for (const std::size_t end : {whole.size() / 3, whole.size() / 3 + 1000, whole.size() / 2 + 1,
+                                whole.size() / 2 + 4, whole.size() - 1, whole.size() - 4,
+                                whole.size() - 5, whole.size() - 100, whole.size() - 130}) {
+    SCOPED_TRACE(end);
+    write_bytes(path("cut.tif"), whole.substr(0, end));
+    expect_refused(path("cut.tif"), "damaged TIFF picture");
+  }
   // a page that claims 30 000 x 30 000 pixels
   std::string large = whole;
   const std::string width = test::number_bytes(256, 2) + test::number_bytes(3, 2);

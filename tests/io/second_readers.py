@@ -7,7 +7,7 @@ Prints one line of JSON for each path: {"path", "reader", "size": [nx, ny, nz], 
 "origin": [x, y, z] (LPS, mm), "low", "high"}, or {"path", "reader", "refuses": why}.
 
 The readers: for NRRD teem's unu; for NIfTI nifti_tool (geometry), and the bytes at the place it reports; for DICOM files
-gdcminfo and gdcmconv, for folders dcm2niix and then nifti_tool. Debian has no small reader of MetaImage, so the few
+gdcminfo and gdcmconv, for folders dcm2niix and then nifti_tool. Of several volumes in one file the first is read. Debian has no small reader of MetaImage, so the few
 lines of read_meta below read it; they follow its documentation, not burr.
 """
 import array
@@ -15,6 +15,7 @@ import concurrent.futures
 import json
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -58,6 +59,10 @@ def read_nrrd(path):
     sizes = [int(n) for n in fields["sizes"].split()]
     moves = re.findall(r"\([^)]*\)|none", fields.get("space directions", ""))
     kept = [a for a in range(len(sizes)) if len(sizes) == 3 or sizes[a] > 1]
+    kinds = fields.get("kinds", "").split() or ["?"] * len(sizes)
+    others = [a for a in kept if kinds[a] not in ("space", "domain")]
+    volumes = others[0] if len(kept) == 4 and len(others) == 1 else None
+    kept = [a for a in kept if a != volumes]
     if len(kept) != 3:
         raise Refuses("not three axes")
     spacings = (fields.get("spacings", "") + " nan" * 9).split()
@@ -77,7 +82,12 @@ def read_nrrd(path):
         flip = [1, -1, 1]
     if space.startswith("3d-left"):
         flip = [1, 1, -1]
-    range_text = output_of("teem-unu", "minmax", path)
+    with tempfile.TemporaryDirectory() as folder:
+        one = path
+        if volumes is not None:
+            one = pathlib.Path(folder) / "one.nrrd"
+            output_of("teem-unu", "slice", "-a", volumes, "-p", "0", "-i", path, "-o", one)
+        range_text = output_of("teem-unu", "minmax", one)
     low, high = (float(re.search(f"{what}: (\\S+)", range_text).group(1)) for what in ("min", "max"))
     return {
         "reader": "unu",
@@ -116,8 +126,6 @@ def read_nifti(path):
         raise Refuses("no header")
     number = lambda name: float(fields[name][0])
     sizes = [max(1, int(fields[n][0])) for n in ("nx", "ny", "nz")]
-    if int(fields["nvox"][0]) != sizes[0] * sizes[1] * sizes[2]:
-        raise Refuses("not three axes")
     # the file must say which of the two it is; the standard prefers sform
     name = "sto_xyz" if number("sform_code") > 0 else "qto_xyz" if number("qform_code") > 0 else None
     scale = {1: 1000.0, 3: 0.001}.get(int(number("xyz_units")), 1.0)
@@ -135,6 +143,13 @@ def read_nifti(path):
         raise Refuses("cut off")
     low, high = spread(data[at : at + count], code, big)
     slope, intercept = number("scl_slope"), number("scl_inter")
+    # nifti_tool prints six decimals, and a slope may be 0.003: the header has all its digits
+    head, order = unpacked(path), ">" if big else "<"
+    places = {348: ("2f", 112), 540: ("2d", 176)}.get(struct.unpack_from(order + "i", head)[0])  # none: an .img
+    if places:
+        exact = struct.unpack_from(order + places[0], head, places[1])
+        if max(abs(exact[0] - slope), abs(exact[1] - intercept)) < 1e-6:
+            slope, intercept = exact
     if slope not in (0, 1) or (slope == 1 and intercept):
         low, high = sorted((low * slope + intercept, high * slope + intercept))
     return {

@@ -58,10 +58,7 @@ void expect_all(const std::string& path, const std::string& original, const Trut
     for (const tick::Command& command : step.commands) {
       ASSERT_LT(commands, truth.commands.size());
       EXPECT_EQ(truth.commands[commands].tick, ticks);
-      // of one tick in any order: chunks of a few messages may part them
-      EXPECT_TRUE(std::any_of(truth.commands.begin(), truth.commands.end(), [&](const auto& one) {
-        return one.tick == ticks && one.command.kind == command.kind;
-      }));
+      EXPECT_EQ(truth.commands[commands].command.kind, command.kind);
       ++commands;
     }
   }
@@ -151,6 +148,7 @@ TEST(AnyMcap, WhateverTheSpecificationAllowsIsPlayedToTheBit) {
                               "two_frames",
                               "two_channels",
                               "chunk_per_topic",
+                              "two_channels chunk_per_topic chunk_bytes=700",
                               "in_order chunk_bytes=3000",
                               "in_order no_chunks",
                               "chunk_bytes=90000000",
@@ -232,7 +230,9 @@ TEST(AnyMcap, ADamagedPartCostsOnlyItself) {
       // a keyframe's message is 2.3 MB long
       EXPECT_LT(report->lost_bytes, 4'000'000U) << at;
       if (std::string(choices) == "no_chunks") {
-        EXPECT_EQ(report->lost_bytes, damaged) << at;
+        // its last bytes may look like a small record of an unknown kind, which is stepped over
+        EXPECT_LE(report->lost_bytes, damaged) << at;
+        EXPECT_GT(report->lost_bytes + 256, damaged) << at;
       }
       EXPECT_GE(report->ticks + 300, original.truth.ticks.size()) << at;
       auto player = Player::open(to);

@@ -106,10 +106,12 @@ void expect_marks(const Opened& all, const scenario::Step& step,
   for (const StepMark& mark : marks.marks) {
     const bool kept =
         std::find(step.spare.begin(), step.spare.end(), mark.name) != step.spare.end();
-    if (!mark.name.empty() && mark.kind != MarkKind::spare)
+    if (!mark.name.empty() && mark.kind != MarkKind::spare) {
       EXPECT_FALSE(kept) << mark.name << " is shown as a " << word_of(mark.kind);
-    if (mark.kind == MarkKind::target || mark.kind == MarkKind::plane)
+    }
+    if (mark.kind == MarkKind::target || mark.kind == MarkKind::plane) {
       EXPECT_TRUE(mark.name.empty() || mark.name == step.region) << mark.name;
+    }
   }
   for (const std::string& name : step.spare)
     EXPECT_TRUE(std::any_of(
@@ -146,6 +148,13 @@ void expect_press(const Opened& all, const scenario::Step& step, const scoring::
       1e3 * target.room, target.towards.x(), target.towards.y(), target.towards.z(),
       2e3 * target.radius);
   EXPECT_GT(least, 0) << "the first press reaches what must be spared";
+  // where no press helps: the least one, and there are places enough beside
+  std::printf("  %-16s %zu of %zu spots are too near what must be spared\n", "",
+              target.too_near.size(), target.too_near.size() + target.surface.size());
+  EXPECT_GT(4 * target.surface.size(), target.surface.size() + target.too_near.size());
+  if (!target.too_near.empty()) {
+    EXPECT_DOUBLE_EQ(press, kLeastPress);
+  }
 }
 
 TEST_P(StepTargets, AreThoseOfTheCasesOwnData) {
@@ -157,7 +166,9 @@ TEST_P(StepTargets, AreThoseOfTheCasesOwnData) {
   for (const scenario::Step& step : all.lesson.steps) {
     SCOPED_TRACE(step.id);
     const BurrChoice burr = burr_of(all, step);
-    if (step.kind) EXPECT_EQ(burr.kind, *step.kind);
+    if (step.kind) {
+      EXPECT_EQ(burr.kind, *step.kind);
+    }
     if (step.diameter) {
       EXPECT_GE(burr.diameter, step.diameter->first - 1e-9);
       EXPECT_LE(burr.diameter, step.diameter->second + 1e-9);

@@ -182,7 +182,7 @@ TEST(PathCheck, MetresInPlaceOfMillimetresAreNamed) {
   const auto session = session_of({}, followed.path);
   NoProgress quiet;
   session->run(0.1, quiet);
-  EXPECT_TRUE(says(doubts_after(*session, followed), "must be named x_mm,y_mm,z_mm"));
+  EXPECT_TRUE(says(doubts_before(*session, followed), "must be named x_mm,y_mm,z_mm"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A user who takes bone, what was removed, and a picture out of a session that goes on.
 #include "window/parts/export_job.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
@@ -14,6 +15,8 @@
 #include <vector>
 
 #include "burr/io/export_part.h"
+#include "burr/volume/removed_part.h"
+#include "burr/volume/shared_copy.h"
 #include "shared/piece_files.h"
 #include "shared/window_session.h"
 #include "window/mill/window.h"
@@ -120,28 +123,38 @@ TEST_F(Export, WritesWhatWasAddedAndEachPiece) {
   ASSERT_TRUE(ready) << ready.error().text;
   sim::Session& session = *ready->session;
   rt::ChangedBits& changed = session.bone().add_watcher();
+  NoProgress quiet;
+  std::string told;
+  const auto bare = volume::shared_copy(session.bone(), changed, quiet);
+  ASSERT_TRUE(bare) << bare.error().text;
+  // a layer that is too thin has no surface to be written
+  const auto is_thick = [&] {
+    const auto now = volume::shared_copy(session.bone(), changed, quiet);
+    return now && volume::removed_part(**now, **bare).ok();
+  };
   mill_in(*ready, {{"the first picture", looks(3),
                     [] {
                       press(SDLK_2);
                       move_to(640, 340);
                       button(SDL_BUTTON_LEFT, true);
                     }},
-                   {"something to be added", pressing_until([&changed, bricks = 0]() mutable {
-                      changed.take_all([&bricks](std::size_t) { ++bricks; });
-                      return bricks > 20;
-                    }),
+                   {"enough to be added", pressing_until(is_thick),
                     [] {
                       button(SDL_BUTTON_LEFT, false);
                       press(SDLK_e);
                     }},
                    {"the page", looks(5), [] { choose(kAdded); }},
                    {"what was added", looks(5), [] { write(); }},
-                   {"the word that it is written", says("added.stl"), [] { press(SDLK_e); }},
+                   {"the word that it is written", says("triangles"),
+                    [&] {
+                      told = desk_->status_text;
+                      press(SDLK_e);
+                    }},
                    {"the page again", looks(5), [] { choose(kPieces); }},
                    {"the pieces", looks(5), [] { write(); }},
                    {"the word that they are written", says("piece_1.stl"), [] { press(SDLK_q); }}});
+  EXPECT_NE(told.find("added.stl"), std::string::npos) << told;
   ASSERT_GT(session.outcome().ledger.added, 0) << "nothing was added: the test shows nothing";
-  NoProgress quiet;
   const fs::path truth = folder_ / "truth.stl";
   const auto before = session.bone_before();
   ASSERT_TRUE(

@@ -66,7 +66,7 @@ TEST(LawFile, SaysWhatIsWrong) {
     EXPECT_EQ(law.error().text.find("/proc/"), std::string::npos) << law.error().text;
   };
   says(LawFile::open(folder / "absent.so"), "there is no such file");
-  says(LawFile::open(folder.str()), "there is no such file");
+  says(LawFile::open(folder.str()), "is a folder, not a file");
   says(LawFile::open(folder / "text.so"), "it cannot be loaded");
   says(LawFile::open(kLaws + "is_none.so"), "has no function burr_law_v1");
   says(LawFile::open(kLaws + "nan.so", folder / "settings.txt"), "takes no settings");

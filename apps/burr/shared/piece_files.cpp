@@ -34,7 +34,7 @@ double inside_of(const volume::Bone& bone) {
 
 // All that is larger than a splinter, the largest first; counts the splinters.
 std::vector<Body> bodies_of(const volume::Bone& rest, const volume::PieceFinder& finder,
-                            const std::vector<edit::PieceStore::Moved>& moved, PieceFiles& told) {
+                            const std::vector<edit::PieceStore::Moved>& moved, PieceFiles& made) {
   const double voxel = rest.grid().voxel, voxel_m3 = voxel * voxel * voxel;
   std::vector<Body> bodies;
   for (std::size_t n = 0; n < finder.pieces().size(); ++n) {
@@ -42,8 +42,8 @@ std::vector<Body> bodies_of(const volume::Bone& rest, const volume::PieceFinder&
     if (size >= kSplinter) {
       bodies.push_back({size, n, nullptr, 0});
     } else {
-      ++told.splinters;
-      told.splinters_volume += size;
+      ++made.splinters;
+      made.splinters_volume += size;
     }
   }
   for (std::size_t n = 0; n < moved.size(); ++n)
@@ -71,8 +71,8 @@ Result<PieceFiles> write_pieces(const volume::Bone& bone, const std::string& out
   const std::unique_ptr<volume::Bone> without = moved.empty() ? nullptr : store.without_moved(bone);
   const volume::Bone& rest = without ? *without : bone;
   const volume::PieceFinder finder(rest);
-  PieceFiles told;
-  const std::vector<Body> bodies = bodies_of(rest, finder, moved, told);
+  PieceFiles made;
+  const std::vector<Body> bodies = bodies_of(rest, finder, moved, made);
   if (bodies.empty())
     return error(fmt::format("no piece of the bone is larger than {:g} mm^3; nothing was written",
                              1e9 * kSplinter));
@@ -86,7 +86,7 @@ Result<PieceFiles> write_pieces(const volume::Bone& bone, const std::string& out
       if (!piece) return piece.error();
       alone = std::move(*piece);
     }
-    PieceFiles::One& one = told.files.emplace_back();
+    PieceFiles::One& one = made.files.emplace_back();
     one.path = numbered(out, n + 1);
     const auto written = io::export_part(*alone, *alone, one.path, options, progress);
     if (!written) return written.error();
@@ -94,7 +94,7 @@ Result<PieceFiles> write_pieces(const volume::Bone& bone, const std::string& out
     one.triangles = written->triangles;
     if (body.moved) one.moved = body.row;
   }
-  return told;
+  return made;
 }
 
 }  // namespace burr::app

@@ -113,7 +113,7 @@ Result<WindowSession> make_window_session(const WorkOptions& options,
   if (!options.publish_as.empty()) {
     auto arm = device::crtk::Arm::open({.name = options.publish_as, .middle = above.p});
     if (!arm) return arm.error();
-    fmt::print(stderr, "{} is on DDS domain {}, for programs on {}.\n", options.told_as,
+    fmt::print(stderr, "{} is on DDS domain {}, for programs on {}.\n", options.publish_as,
                (*arm)->domain(),
                (*arm)->on_network()
                    ? "every computer of this network"

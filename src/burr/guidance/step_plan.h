@@ -26,7 +26,7 @@ struct BurrChoice {
 [[nodiscard]] BurrChoice burr_for(const scenario::Step& step, const BurrChoice& now,
                                   std::span<const double> sizes);
 
-inline constexpr double kLeastPress = 0.2e-3;
+using scoring::kLeastPress;
 
 // The depth of a press: the user's usual one, but no farther than the step's own structure is thick, or than
 // the target reaches, and never as far as what must be spared; at least kLeastPress, and that where nothing of

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
 
 #include "burr/record/assumed_tool.h"
@@ -29,6 +28,17 @@ tick::BrickRow row_of(std::uint64_t tick, BrickIndex brick, const BrickContent& 
   row.has_tissue = with_tissue;
   if (with_tissue) row.tissue = content.tissue;
   return row;
+}
+
+// A command, and the number of its message: other writers may put those of one tick into any chunks.
+using NumberedCommand = std::pair<std::uint32_t, tick::CommandRow>;
+
+void put_in_order_recorded(auto& commands) {
+  const auto earlier = [](const NumberedCommand& a, const NumberedCommand& b) {
+    return std::pair(a.second.tick, a.first) < std::pair(b.second.tick, b.first);
+  };
+  if (!std::is_sorted(commands.begin(), commands.end(), earlier))
+    std::stable_sort(commands.begin(), commands.end(), earlier);
 }
 
 }  // namespace
@@ -57,8 +67,6 @@ Result<std::unique_ptr<Player>> Player::open(const std::string& path) {
   steps.insert(player->second_channels_.begin(), player->second_channels_.end());
   player->step_chunks_ = player->chunks_with(steps);
   player->change_chunks_ = player->chunks_with(player->change_channels_);
-  // each change follows from the one before: as they were written
-  std::sort(player->change_chunks_.begin(), player->change_chunks_.end());
   for (const std::size_t c : player->step_chunks_) {
     const std::uint64_t before = player->step_ends_.empty() ? 0 : player->step_ends_.back();
     player->step_ends_.push_back(
@@ -209,7 +217,7 @@ void Player::find_holes() {
 // ---- the tool of recordings that do not say it
 
 void Player::read_assumed_tools() {
-  std::vector<tick::CommandRow> commands;
+  std::vector<NumberedCommand> commands;
   for (const std::size_t c : chunks_with(command_channels_)) {
     const auto chunk = reader_->read_chunk(c);
     if (!chunk) continue;  // the cursors say so
@@ -217,13 +225,12 @@ void Player::read_assumed_tools() {
     for (const McapMessage& message : chunk->messages)
       if (command_channels_.contains(message.channel) &&
           command_from_json(as_text(message.data), row))
-        commands.push_back(row);
+        commands.emplace_back(message.sequence, row);
   }
-  std::stable_sort(commands.begin(), commands.end(),
-                   [](const auto& a, const auto& b) { return a.tick < b.tick; });
+  put_in_order_recorded(commands);
   AssumedTool tool(info_);
   assumed_tools_.emplace_back(0, tool.now());
-  for (const tick::CommandRow& row : commands) {
+  for (const auto& [number, row] : commands) {
     tool.obey(row.command);
     if (tool.now() != assumed_tools_.back().second)
       assumed_tools_.emplace_back(row.tick, tool.now());
@@ -266,7 +273,7 @@ void StepCursor::take(const McapMessage& message, std::uint64_t& reach) {
   if (!player.command_channels_.contains(message.channel)) return;
   tick::CommandRow command;
   if (command_from_json(as_text(message.data), command))
-    commands_.push_back(command);
+    commands_.emplace_back(message.sequence, command);
   else
     player_->notice(
         fmt::format("{}: a command near {:.3f} s is unknown and was ignored; it was perhaps "
@@ -280,30 +287,22 @@ bool StepCursor::fill() {
   const Player& player = *player_;
   // other writers put what belongs to one tick into several chunks: all that begin before the rows end
   std::uint64_t reach = 0;
-  std::vector<std::pair<std::size_t, tick::CommandRow>> commands;  // with their chunk
   while (chunk_ < player.step_chunks_.size() &&
          (rows_.empty() || player.start_tick(player.step_chunks_[chunk_]) <= reach)) {
-    const std::size_t at = player.step_chunks_[chunk_++], had = commands_.size();
-    const auto chunk = player.reader_->read_chunk(at);
+    const auto chunk = player.reader_->read_chunk(player.step_chunks_[chunk_++]);
     if (!chunk) {
       player_->notice(chunk.error().text);
       continue;
     }
     for (const McapMessage& message : chunk->messages) take(message, reach);
-    for (std::size_t n = had; n < commands_.size(); ++n) commands.emplace_back(at, commands_[n]);
-    commands_.erase(commands_.begin() + static_cast<std::ptrdiff_t>(had), commands_.end());
   }
-  // of one tick in the order of the file
-  std::stable_sort(commands.begin(), commands.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [at, command] : commands) commands_.push_back(command);
   const auto earlier = [](const auto& a, const auto& b) { return a.tick < b.tick; };
   const auto put_in_order = [&earlier](auto& rows) {
     if (!std::is_sorted(rows.begin(), rows.end(), earlier))
       std::stable_sort(rows.begin(), rows.end(), earlier);
   };
   put_in_order(rows_);
-  put_in_order(commands_);
+  put_in_order_recorded(commands_);
   put_in_order(second_);
   return !rows_.empty();
 }
@@ -318,8 +317,9 @@ bool StepCursor::next(Step& step) {
     step.gap = row.tick != (last_tick_ ? *last_tick_ + 1 : first_tick_);
     last_tick_ = row.tick;
     step.commands.clear();
-    for (; !commands_.empty() && commands_.front().tick <= row.tick; commands_.pop_front())
-      if (commands_.front().tick == row.tick) step.commands.push_back(commands_.front().command);
+    for (; !commands_.empty() && commands_.front().second.tick <= row.tick; commands_.pop_front())
+      if (commands_.front().second.tick == row.tick)
+        step.commands.push_back(commands_.front().second.command);
     step.second.reset();
     for (; !second_.empty() && second_.front().tick <= row.tick; second_.pop_front())
       if (second_.front().tick == row.tick) step.second = second_.front();

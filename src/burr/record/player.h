@@ -63,7 +63,8 @@ class StepCursor {
   std::optional<std::uint64_t> last_tick_;
   std::vector<tick::TickRow> rows_;
   std::size_t row_ = 0;
-  std::deque<tick::CommandRow> commands_;
+  // each with the number of its message
+  std::deque<std::pair<std::uint32_t, tick::CommandRow>> commands_;
   std::deque<tick::TickRow> second_;
 };
 

@@ -97,8 +97,9 @@ bool Player::load_keyframe(std::uint64_t tick) {
       state_tick_ = tick_of_ns(*time);
       place_ = {};
       place_.next_batch = batch + 1;
-      const auto from = std::find_if(change_chunks_.begin(), change_chunks_.end(),
-                                     [&](std::size_t c) { return chunks[c].end_ns >= *time; });
+      const auto from =
+          std::partition_point(change_chunks_.begin(), change_chunks_.end(),
+                               [&](std::size_t c) { return chunks[c].end_ns < *time; });
       place_.chunk = static_cast<std::size_t>(from - change_chunks_.begin());
       state_good_ = true;
       return true;

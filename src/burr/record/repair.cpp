@@ -11,6 +11,7 @@
 #include <set>
 #include <vector>
 
+#include "burr/base/plain_file.h"
 #include "burr/record/mcap/mcap_reader.h"
 #include "burr/record/mcap/mcap_writer.h"
 #include "burr/record/mcap/packed.h"
@@ -164,6 +165,7 @@ Result<RepairReport> repair(const std::string& path, const std::string& out, Pro
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     return error(Trouble::io, path + ": does not exist; check the name");
+  if (const Status plain = base::check_plain_file(path); !plain) return plain.error();
   if (being_written(path))
     return error(Trouble::io,
                  path + ": is being recorded right now; wait until the session has ended");

@@ -44,14 +44,23 @@ Sheet sheet_of(const Vec3& at, const Vec3& normal, const volume::Bone& bone) {
   return sheet;
 }
 
+// Where the surface lies between a point inside and one outside: the depth does not change evenly on the way.
+Vec3 between(const volume::Bone& bone, Vec3 in, Vec3 out) {
+  for (int n = 0; n < 10; ++n) {
+    const Vec3 middle = 0.5 * (in + out);
+    (volume::depth_at(bone, middle) >= 0 ? in : out) = middle;
+  }
+  return 0.5 * (in + out);
+}
+
 // The surface crosses the sides of a triangle of the sheet twice, or not at all.
-void cross(const std::array<Vec3, 3>& p, const std::array<double, 3>& d,
+void cross(const volume::Bone& bone, const std::array<Vec3, 3>& p, const std::array<double, 3>& d,
            std::vector<std::array<Vec3, 2>>& lines) {
   std::optional<Vec3> first;
   for (std::size_t n = 0; n < 3; ++n) {
     const std::size_t m = (n + 1) % 3;
     if ((d[n] >= 0) == (d[m] >= 0)) continue;
-    const Vec3 at = p[n] + (p[m] - p[n]) * (d[n] / (d[n] - d[m]));
+    const Vec3 at = d[n] >= 0 ? between(bone, p[n], p[m]) : between(bone, p[m], p[n]);
     if (first)
       lines.push_back({*first, at});
     else
@@ -73,10 +82,10 @@ std::vector<std::array<Vec3, 2>> outline_of(const scenario::CaseRegion& region,
         for (int i = 0; i + 1 < sheet.wide; ++i) {
           const auto corner = [&](int a, int b) { return sheet.point(i + a, j + b); };
           const auto depth = [&](int a, int b) { return sheet.at(i + a, j + b); };
-          cross({corner(0, 0), corner(1, 0), corner(1, 1)}, {depth(0, 0), depth(1, 0), depth(1, 1)},
-                lines);
-          cross({corner(0, 0), corner(1, 1), corner(0, 1)}, {depth(0, 0), depth(1, 1), depth(0, 1)},
-                lines);
+          cross(bone, {corner(0, 0), corner(1, 0), corner(1, 1)},
+                {depth(0, 0), depth(1, 0), depth(1, 1)}, lines);
+          cross(bone, {corner(0, 0), corner(1, 1), corner(0, 1)},
+                {depth(0, 0), depth(1, 1), depth(0, 1)}, lines);
         }
     }
   const double near = bone.grid().voxel;

@@ -117,27 +117,47 @@ std::set<std::string> to_spare(const scenario::Step& step, const scenario::CaseL
   return names;
 }
 
-// The largest press at which the ball stays away, along the approach and along the surface's own normal:
-// a mouse presses along that.
-double room_of(const StepTarget& target, const Bone& bone, double radius,
-               const std::vector<std::shared_ptr<const volume::DistanceTo>>& distances) {
-  constexpr double kFine = 0.1e-3;
+using Distances = std::vector<std::shared_ptr<const volume::DistanceTo>>;
+
+// Whether a ball that is pressed in at a spot stays a voxel away from all of these, along the approach and along
+// the surface's own normal: a mouse presses along that.
+bool stays_away(const Bone& bone, const Vec3& spot, const Vec3& towards, double radius,
+                double press, const Distances& distances) {
   const double keep = radius + bone.grid().voxel;
-  const auto free_at = [&](const Vec3& centre) {
-    return std::all_of(distances.begin(), distances.end(),
-                       [&](const auto& one) { return one->at(centre).distance >= keep; });
-  };
+  const Vec3 normal = volume::normal(bone, bone.grid().grid_from_world(spot));
+  for (const Vec3& out : {towards, normal.norm() > 0 ? normal : towards}) {
+    const Vec3 centre = spot + (radius - press) * out;
+    for (const auto& one : distances)
+      if (one->at(centre).distance < keep) return false;
+  }
+  return true;
+}
+
+// The largest press at which the ball stays away at all spots.
+double room_of(const StepTarget& target, const Bone& bone, double radius,
+               const Distances& distances) {
+  constexpr double kFine = 0.1e-3;
   double room = kMostPress;
   for (double before = 0;
        room > 0 && room != before;) {  // less at one spot may be wrong at another
     before = room;
-    for (const Vec3& spot : target.surface) {
-      const Vec3 normal = volume::normal(bone, bone.grid().grid_from_world(spot));
-      for (const Vec3& out : {target.towards, normal.norm() > 0 ? normal : target.towards})
-        while (room > 0 && !free_at(spot + (radius - room) * out)) room -= kFine;
-    }
+    for (const Vec3& spot : target.surface)
+      while (room > 0 && !stays_away(bone, spot, target.towards, radius, room, distances))
+        room -= kFine;
   }
   return std::max(room, 0.0);
+}
+
+// A wall of what must be spared, or where it lies bare: no place for this burr, however little it is pressed.
+void set_apart_too_near(StepTarget& target, const Bone& bone, double radius,
+                        const Distances& distances) {
+  const auto near =
+      std::stable_partition(target.surface.begin(), target.surface.end(), [&](const Vec3& spot) {
+        return stays_away(bone, spot, target.towards, radius, kLeastPress, distances);
+      });
+  target.too_near.assign(near, target.surface.end());
+  if (!target.too_near.empty()) target.room = 0;
+  if (near != target.surface.begin()) target.surface.erase(near, target.surface.end());
 }
 
 }  // namespace
@@ -175,6 +195,15 @@ Result<StepTarget> TargetFinder::find(const scenario::Step& step, const Bone& no
   out.found = !out.surface.empty();
   out.gone = !out.found;
   if (out.gone) return out;
+  Distances distances;
+  for (const std::string& name : to_spare(step, lesson_)) {
+    distances.push_back(scene_->distance(name));
+    if (scene_->stopped()) return error(Trouble::interrupted, "stopped");
+  }
+  out.surface = some_of(std::move(out.surface), kMostSurface);
+  out.room = room_of(out, now, radius, distances);
+  set_apart_too_near(out, now, radius, distances);
+
   Vec3 middle = Vec3::Zero();
   for (const Vec3& spot : out.surface) middle += spot / static_cast<double>(out.surface.size());
   const auto off = [&](const Vec3& from, const Vec3& p) {
@@ -185,7 +214,6 @@ Result<StepTarget> TargetFinder::find(const scenario::Step& step, const Bone& no
     return (a - middle).norm() < (b - middle).norm();
   });
   for (const Vec3& spot : out.surface) out.radius = std::max(out.radius, off(out.at, spot));
-  out.surface = some_of(std::move(out.surface), kMostSurface);
   if (is_cut(*region)) out.outline = outline_of(*region, where, now);
 
   if (const scenario::Structure* own = lesson_.structure(step.structure)) {
@@ -196,12 +224,6 @@ Result<StepTarget> TargetFinder::find(const scenario::Step& step, const Bone& no
     // caries breaks through the enamel of the tooth's fissure at half of the spots
     if (4 * thick.size() >= out.surface.size()) out.thickness = median(std::move(thick));
   }
-  std::vector<std::shared_ptr<const volume::DistanceTo>> distances;
-  for (const std::string& name : to_spare(step, lesson_)) {
-    distances.push_back(scene_->distance(name));
-    if (scene_->stopped()) return error(Trouble::interrupted, "stopped");
-  }
-  out.room = room_of(out, now, radius, distances);
   for (const std::string& name : step.spare) {
     if (const scenario::CaseRegion* kept = lesson_.region(name);
         kept != nullptr && lesson_.structure(name) == nullptr) {

@@ -35,7 +35,9 @@ struct StepTarget {
   // The largest press of this burr, anywhere on the surface over the target, that stays a voxel away from
   // what must be spared: a ball of its radius, so far below the surface. At most kMostPress; 0: none.
   double room = 0;
-  std::vector<math::Vec3> surface;  // spots of it, at most kMostSurface
+  // Spots of it where this burr can begin, at most kMostSurface; and those where it meets what must be spared
+  // however little it is pressed. All are too near: they are the surface then, and room is 0.
+  std::vector<math::Vec3> surface, too_near;
   // Of a cut, a region between planes: where they meet the surface of the bone; pairs of ends of lines.
   std::vector<std::array<math::Vec3, 2>> outline;
   // The nearest place of each structure or region that the step spares.
@@ -45,7 +47,8 @@ struct StepTarget {
   };
   std::vector<Spared> spared;
 };
-inline constexpr double kMostPress = 6e-3;  // [m]
+inline constexpr double kMostPress = 6e-3;     // [m]
+inline constexpr double kLeastPress = 0.2e-3;  // a smaller one cuts nothing
 inline constexpr std::size_t kMostSurface = 2000;
 
 // A region between planes: half-spaces alone make it.

@@ -108,6 +108,12 @@ bool touched(Session& session, const Held& held, bool second, double away) {
 std::vector<std::string> doubts_before(Session& session, const FollowedPath& followed) {
   if (followed.path.points.empty()) return {};
   const Held what = held(session, followed.second);
+  const double away = nearest(followed.path, session.bone());
+  if (away > std::max(kFarAway, what.reach()))
+    return {
+        fmt::format("{}: the hand is never nearer than {:.3g} m to the bone. Columns in "
+                    "millimetres must be named x_mm,y_mm,z_mm",
+                    followed.name, away)};
   if (is_free(session.surface(), what, followed.path.points.front().world_from_tool)) return {};
   return {fmt::format(
       "{}: the {} is inside the bone at the first point. Nothing is felt or cut until it has been "
@@ -119,12 +125,8 @@ std::vector<std::string> doubts_after(Session& session, const FollowedPath& foll
   if (followed.path.points.empty()) return {};
   const Held what = held(session, followed.second);
   const double away = nearest(followed.path, session.bone());
-  if (touched(session, what, followed.second, away)) return {};
-  if (away > kFarAway)
-    return {
-        fmt::format("{}: the hand is never nearer than {:.3g} m to the bone. Columns in "
-                    "millimetres must be named x_mm,y_mm,z_mm",
-                    followed.name, away)};
+  if (away > std::max(kFarAway, what.reach()) || touched(session, what, followed.second, away))
+    return {};
   if (away > (what.tool != nullptr ? 0 : what.radius))
     return {
         fmt::format("{}: the hand is never nearer than {:.1f} mm to the bone, and nothing was "

@@ -20,8 +20,9 @@ struct FollowedPath {
 };
 
 // Sentences for the user, each with its remedy; empty: nothing is doubted.
-// Before the first tick: the tool is inside bone at the first point; then nothing is felt or cut until it
-// has been in free air, by the rule of tick/hand.h.
+// Before the first tick: the path stays so far away that it must be in other units; or the tool is inside
+// bone at the first point: then nothing is felt or cut until it has been in free air, by the rule of
+// tick/hand.h.
 [[nodiscard]] std::vector<std::string> doubts_before(Session& session,
                                                      const FollowedPath& followed);
 // After the last: nothing was touched, and how far from the bone the path stays.

@@ -43,6 +43,14 @@ std::string difference(const tick::TickRow& was, const tick::TickRow& is) {
   return "another hash, from an earlier part of the tick or the ledger";
 }
 
+// The values in the file with the hashes beside them; the simulated hashes are compared besides.
+struct Chains {
+  record::Chain first, second;
+  [[nodiscard]] bool add(const record::Step& step) {
+    return first.add(step.row, false) && (!step.second || second.add(*step.second, false));
+  }
+};
+
 // The undone volume is not part of the hash; older recordings do not hold it.
 bool same_undone(const tick::TickRow& was, const tick::TickRow& is) {
   return was.ledger.undone == 0 || was.ledger.undone == is.ledger.undone;
@@ -117,7 +125,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
   edit::PieceStore& pieces = outcome.pieces;
   std::optional<edit::PieceStore::NewBricks> under_way;  // lives until the servo has written it
   record::StepCursor steps = player.steps();
-  record::Chain chain, second_chain;  // of the values as they were read
+  Chains chains;
   record::BrickCursor bricks = player.bricks();
   record::Step step;
   tick::BrickRow brick;
@@ -152,10 +160,7 @@ Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bon
       under_way = std::move(moving);
     }
     ++outcome.ticks;
-    // the simulated hash is compared below; here the values in the file with the hash in the file
-    const bool unchanged = chain.add(step.row, false) &&
-                           (!step.second || second_chain.add(*step.second, false)) &&
-                           same_undone(step.row, row);
+    const bool unchanged = chains.add(step) && same_undone(step.row, row);
     const bool same_tool = !player.tool_is_recorded() || row.tool == step.row.tool;
     if (!unchanged) {
       outcome.first_different_tick = row.tick;

@@ -138,18 +138,18 @@ guidance::BurrChoice Drill::burr_for(const scenario::Step& step) const {
 }
 
 std::string Drill::suit(const scenario::Step& step) {
-  std::string told;
+  std::string line;
   const bool works = mode_ == tick::ToolMode::cut || mode_ == tick::ToolMode::add;
   if (works && step.adds != (mode_ == tick::ToolMode::add))
-    told = set_mode(step.adds ? tick::ToolMode::add : tick::ToolMode::cut);
-  if (tool_ >= 0) told = take_tool(-1, nullptr);
+    line = set_mode(step.adds ? tick::ToolMode::add : tick::ToolMode::cut);
+  if (tool_ >= 0) line = take_tool(-1, nullptr);
   const guidance::BurrChoice burr = burr_for(step);
-  if ((burr.kind == tool::BurrKind::diamond) != shown_.diamond) told = toggle_kind();
-  if (std::abs(burr.diameter - 2 * session_.burr_radius()) < 1e-9) return told;
+  if ((burr.kind == tool::BurrKind::diamond) != shown_.diamond) line = toggle_kind();
+  if (std::abs(burr.diameter - 2 * session_.burr_radius()) < 1e-9) return line;
   requested_ = 0.5 * burr.diameter;
   requested_at_ = Clock::now();
   session_.command({tick::CommandKind::burr_radius, *requested_});
-  return told;
+  return line;
 }
 
 double Drill::least_size() const {

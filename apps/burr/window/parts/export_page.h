@@ -67,7 +67,7 @@ class ExportPage {
   [[nodiscard]] std::optional<FilmSource> film() const;
   void draw_choices(float x, float y);
   void draw_endings(float x, float y);
-  void draw_told(float x, float y, float wide, float foot);
+  void draw_line(float x, float y, float wide, float foot);
   void draw_film_plan(float x, float y) const;
   void draw_buttons(float right, float y, bool entered);
 

@@ -251,9 +251,9 @@ Status Inverse::find_force_key() {
   for (int n = 0; n < kTellings; ++n) {
     if (!connection_->send(greeting(connection_->id, likely, configures)) || !connection_->hears())
       return silent();
-    const bool told =
+    const bool answered =
         read_pipeline(connection_->line.text(), connection_->found.id, connection_->pipeline);
-    if (!told || in_the_way(connection_->pipeline).empty()) break;
+    if (!answered || in_the_way(connection_->pipeline).empty()) break;
   }
   const std::string what = in_the_way(connection_->pipeline);
   if (!what.empty() && !may_be_turned())

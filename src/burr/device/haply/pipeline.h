@@ -27,8 +27,6 @@ struct Pipeline {
   math::Vec3 mount_scale = math::Vec3::Ones(), workspace_scale = math::Vec3::Ones();
   std::optional<double> force_gate, damping;
   math::Vec3 damping_along = math::Vec3::Zero();
-
-  [[nodiscard]] bool told() const { return basis || mount || force_gate || damping; }
 };
 
 // False: the message has no configuration of this arm, or one that cannot be read.

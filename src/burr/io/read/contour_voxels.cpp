@@ -43,7 +43,7 @@ struct Family {
 };
 
 // What is to be said of the structures, by their names.
-struct Told {
+struct Noted {
   std::set<std::string> open, broken, copies, between, slanting, apart, beyond;
   std::set<std::string> types;
   std::size_t open_count = 0, broken_count = 0, copy_count = 0;
@@ -66,20 +66,20 @@ double middle(std::vector<double> all) {
 // The contours of one structure, sorted into families and planes.
 class Sorter {
  public:
-  Sorter(const VoxelPlaces& on, const std::string& name, Told& told)
-      : on_(on), name_(name), told_(told) {}
+  Sorter(const VoxelPlaces& on, const std::string& name, Noted& noted)
+      : on_(on), name_(name), noted_(noted) {}
 
   std::vector<Family> sort(const std::vector<Contour>& contours) {
     for (const Contour& contour : contours) {
       const bool closed = contour.type == "CLOSED_PLANAR" || contour.type == "CLOSEDPLANAR_XOR" ||
                           contour.type.empty();
       if (!closed) {
-        ++told_.open_count;
-        told_.open.insert(name_);
-        told_.types.insert(base::printable(contour.type, 20));
+        ++noted_.open_count;
+        noted_.open.insert(name_);
+        noted_.types.insert(base::printable(contour.type, 20));
       } else if (!take(contour)) {
-        ++told_.broken_count;
-        told_.broken.insert(name_);
+        ++noted_.broken_count;
+        noted_.broken.insert(name_);
       }
     }
     for (Family& family : families_) {
@@ -170,8 +170,8 @@ class Sorter {
       }
       const auto& had = out.back().curves;
       if (std::find(had.begin(), had.end(), plane.curves.front()) != had.end()) {
-        ++told_.copy_count;
-        told_.copies.insert(name_);
+        ++noted_.copy_count;
+        noted_.copies.insert(name_);
         continue;
       }
       out.back().curves.push_back(std::move(plane.curves.front()));
@@ -181,7 +181,7 @@ class Sorter {
 
   const VoxelPlaces& on_;
   const std::string& name_;
-  Told& told_;
+  Noted& noted_;
   std::vector<Family> families_;
 };
 
@@ -388,38 +388,38 @@ std::string list_of(const std::set<std::string>& names) {
   return names.size() > kNamed ? fmt::format("{} and {} more", out, names.size() - kNamed) : out;
 }
 
-void tell(const Told& told, double slices_mm, Scan& scan) {
+void tell(const Noted& noted, double slices_mm, Scan& scan) {
   const auto contours = [](std::size_t n) {
     return n == 1 ? std::string("One contour") : fmt::format("{} contours", n);
   };
   const auto say = [&](const std::set<std::string>& names, std::string text) {
     if (!names.empty()) scan.notices.push_back(std::move(text));
   };
-  say(told.open,
-      fmt::format("{} of {} {} no inside ({}) and {} left out.", contours(told.open_count),
-                  list_of(told.open), told.open_count == 1 ? "has" : "have", list_of(told.types),
-                  told.open_count == 1 ? "was" : "were"));
-  say(told.broken,
+  say(noted.open,
+      fmt::format("{} of {} {} no inside ({}) and {} left out.", contours(noted.open_count),
+                  list_of(noted.open), noted.open_count == 1 ? "has" : "have", list_of(noted.types),
+                  noted.open_count == 1 ? "was" : "were"));
+  say(noted.broken,
       fmt::format("{} of {} {} fewer than three points, no area or no plane, and {} left out.",
-                  contours(told.broken_count), list_of(told.broken),
-                  told.broken_count == 1 ? "has" : "have",
-                  told.broken_count == 1 ? "was" : "were"));
-  say(told.copies,
-      fmt::format("{} of {} {} of another one and {} once.", contours(told.copy_count),
-                  list_of(told.copies), told.copy_count == 1 ? "is a copy" : "are copies",
-                  told.copy_count == 1 ? "counts" : "count"));
-  say(told.between,
+                  contours(noted.broken_count), list_of(noted.broken),
+                  noted.broken_count == 1 ? "has" : "have",
+                  noted.broken_count == 1 ? "was" : "were"));
+  say(noted.copies,
+      fmt::format("{} of {} {} of another one and {} once.", contours(noted.copy_count),
+                  list_of(noted.copies), noted.copy_count == 1 ? "is a copy" : "are copies",
+                  noted.copy_count == 1 ? "counts" : "count"));
+  say(noted.between,
       fmt::format("The contours of {} do not lie on all slices of the scan, which are {:.3g} mm "
                   "apart: between them the shape is interpolated.",
-                  list_of(told.between), slices_mm));
-  say(told.slanting, fmt::format("The contours of {} lie in planes across the slices of the scan.",
-                                 list_of(told.slanting)));
-  say(told.apart, fmt::format("Contours of {} lie more than 1.5 times as far apart as the others: "
-                              "nothing was filled in between them.",
-                              list_of(told.apart)));
-  say(told.beyond,
+                  list_of(noted.between), slices_mm));
+  say(noted.slanting, fmt::format("The contours of {} lie in planes across the slices of the scan.",
+                                  list_of(noted.slanting)));
+  say(noted.apart, fmt::format("Contours of {} lie more than 1.5 times as far apart as the others: "
+                               "nothing was filled in between them.",
+                               list_of(noted.apart)));
+  say(noted.beyond,
       fmt::format("Contours of {} reach beyond the scan: what lies outside of it was left out.",
-                  list_of(told.beyond)));
+                  list_of(noted.beyond)));
 }
 
 // The usual distance of the planes of a family; usual: of all structures.
@@ -436,12 +436,12 @@ double gap_of(const Family& family, double usual, const VoxelPlaces& on) {
 
 Result<std::vector<LooseStructure>> voxels_of_contours(const ContourSet& set, const VoxelPlaces& on,
                                                        Scan& scan, Progress& progress) {
-  Told told;
+  Noted noted;
   std::vector<std::vector<Family>> families;
   std::vector<double> gaps;
   for (const ContouredStructure& one : set.structures) {
     const std::string name = base::printable(one.label.name);
-    families.push_back(Sorter(on, name, told).sort(one.contours));
+    families.push_back(Sorter(on, name, noted).sort(one.contours));
     for (const Family& family : families.back())
       for (const double gap : gaps_of(family)) gaps.push_back(gap);
   }
@@ -460,18 +460,18 @@ Result<std::vector<LooseStructure>> voxels_of_contours(const ContourSet& set, co
       family.gap = gap_of(family, usual, on);
       Filler filler(on, family, bits);
       if (!filler.fill(progress)) return error(Trouble::interrupted, "reading was stopped");
-      if (family.axis != 2) told.slanting.insert(name);
-      if (filler.interpolated()) told.between.insert(name);
-      if (beyond(family, on)) told.beyond.insert(name);
+      if (family.axis != 2) noted.slanting.insert(name);
+      if (filler.interpolated()) noted.between.insert(name);
+      if (beyond(family, on)) noted.beyond.insert(name);
       for (const double gap : gaps_of(family))
-        if (gap > kBridged * family.gap * (1 + 1e-6)) told.apart.insert(name);
+        if (gap > kBridged * family.gap * (1 + 1e-6)) noted.apart.insert(name);
     }
     if (!families[n].empty()) bits.each(0, voxels, [&](std::size_t voxel) { made.add(voxel); });
     out.push_back(std::move(made));
     progress.report(static_cast<double>(n + 1) / static_cast<double>(families.size()),
                     "filling contours");
   }
-  tell(told, on.spacing_mm.z(), scan);
+  tell(noted, on.spacing_mm.z(), scan);
   return out;
 }
 

@@ -87,7 +87,7 @@ class Taker {
       ContouredStructure made;
       made.number = whole(one.values, kNumber);
       made.label.colour = volume::Tissue{}.colour;
-      made.label.name = dicom_utf8(dicom_text(one.values, kName), letters);
+      made.label.name = utf8_of_dicom(dicom_text(one.values, kName), letters);
       if (made.label.name.empty()) made.label.name = fmt::format("structure {}", made.number);
       made.frame_of_reference = dicom_text(one.values, kFrame);
       if (place_.try_emplace(made.number, out_.structures.size()).second)
@@ -146,7 +146,7 @@ class Taker {
       ContouredStructure* of = structure(whole(parent(one).values, kOfNumber));
       const std::string meaning =
           meaning_of_code(dicom_text(one.values, 0x00080102), dicom_text(one.values, 0x00080100),
-                          dicom_utf8(dicom_text(one.values, 0x00080104), letters));
+                          utf8_of_dicom(dicom_text(one.values, 0x00080104), letters));
       if (of != nullptr && !meaning.empty()) of->label.meaning = meaning;
     }
   }

@@ -89,10 +89,10 @@ std::uint64_t DicomWalker::walk(std::uint64_t at, std::uint64_t end, int depth, 
     std::uint64_t length = 0, head = 8;
     bool sequence = false;
     // inside the groups of frames, and these groups themselves
-    const bool groups =
-        depth > 0 ? into != nullptr
-                  : tag == kShared || tag == kPerFrame || tag == kSegments || tag == kSpectral ||
-                        (structure_set && structure_sequence(tag));
+    const bool groups = depth > 0
+                            ? into != nullptr
+                            : tag == kShared || tag == kPerFrame || tag == kSegments ||
+                                  tag == kSpectral || (structure_set && structure_sequence(tag));
     if (!meta_part && !explicit_vr) {
       length = u32(at + 4);
       sequence = length == kUndefined && (tag != kPixelData || depth > 0);

@@ -324,8 +324,9 @@ void say_header(const Series& series, const std::vector<Slice>& slices, const st
     scan.notices.push_back(
         fmt::format("{} cannot be read as a number and was left out.", h.unreadable));
   if (!first.has_spacing && slices.size() > 1)
-    scan.ask(Ask::spacing, fmt::format("{}: states no Pixel Spacing{} (taken for 1 mm)", file,
-                                       h.unreadable.empty() ? "" : " that can be read"));
+    scan.ask(Ask::spacing,
+             fmt::format("{}: states no Pixel Spacing{} (taken for 1 mm){}", file,
+                         h.unreadable.empty() ? "" : " that can be read", imager_offer(first)));
   else if (!first.has_spacing)
     scan.notices.emplace_back(
         "The file states no Pixel Spacing: 1 mm is assumed; see `spacing_mm`.");

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "burr/io/read/bytes.h"
+#include "burr/io/read/text.h"
 
 namespace burr::io {
 namespace {
@@ -16,10 +17,12 @@ namespace {
 constexpr int kLongestSide = 32768;
 
 Error colour(const std::string& file) {
+  // the volumes of AMBF are pictures in colour
+  const bool png = lower(file).ends_with(".png");
   return error(
       fmt::format("{}: is a colour picture, and burr reads grey values; save the stack in "
-                  "grey, or give burr a label map",
-                  file));
+                  "grey, {}or give burr a label map",
+                  file, png ? "put the ADF (.yaml) of AMBF that names it into the folder, " : ""));
 }
 
 // What a BMP states of its pixels.

@@ -182,7 +182,10 @@ std::string meaning_of_code(std::string_view scheme, std::string_view code,
   constexpr std::size_t kLongest = 200;
   std::string out(meaning);
   if (!code.empty()) out += fmt::format("{}{} {}", out.empty() ? "" : " ", scheme, code);
-  return out.substr(0, kLongest);
+  if (out.size() <= kLongest) return out;
+  std::size_t end = kLongest;  // not within a letter of UTF-8
+  while (end > 0 && (static_cast<unsigned char>(out[end]) & 0xC0U) == 0x80) --end;
+  return out.substr(0, end);
 }
 
 }  // namespace burr::io

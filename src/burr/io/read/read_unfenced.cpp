@@ -230,8 +230,10 @@ Result<Scan> read_folder(const std::filesystem::path& folder, const ReadOptions&
   if (inside.volumes.empty() || any_dicom(inside.others))
     return read_dicom_folder(folder, inside, options, progress);
   if (inside.volumes.size() == 1) return read_by_content(inside.volumes.front(), options, progress);
+  ReadOptions of_one = options;  // the series names one of the folder, not one in a file
+  of_one.series.clear();
   const VolumeFolder volumes{folder, inside.volumes, [&](const std::filesystem::path& path) {
-                               return read_by_content(path, options, progress);
+                               return read_by_content(path, of_one, progress);
                              }};
   return read_volume_folder(volumes, options, progress);
 }

@@ -49,7 +49,7 @@ Parted parted(const fs::path& path) {
 using Group = std::vector<Parted>;
 
 // What a group looks like in a sentence: "slice#.tif (40)".
-std::string told(const std::string& pattern, const Group& group) {
+std::string words_of(const std::string& pattern, const Group& group) {
   return fmt::format("{} ({})", short_name(fs::path(pattern)), group.size());
 }
 
@@ -111,7 +111,7 @@ Result<StackNames> stack_names(const std::vector<fs::path>& files, const std::st
     std::string list;
     std::size_t n = 0;
     for (const auto& [pattern, one] : groups)
-      if (n++ < kNamed) list += (n > 1 ? ", " : "") + told(pattern, one);
+      if (n++ < kNamed) list += (n > 1 ? ", " : "") + words_of(pattern, one);
     if (groups.size() > kNamed) list += fmt::format(" and {} more", groups.size() - kNamed);
     return error(
         fmt::format("{}: its pictures have names of {} kinds ({}), so they are not one stack; "

@@ -35,6 +35,17 @@ class Memory {
   explicit Memory(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
 
+  // Whether the directory at this place ends within the file. libtiff takes one without its last bytes, the
+  // link to the next picture, for the last one.
+  [[nodiscard]] bool holds_directory(std::uint64_t at) const {
+    constexpr std::uint64_t kBigTiff = 43;
+    const bool large = number(2, 2) == kBigTiff;
+    const std::uint64_t count_bytes = large ? 8 : 2, entry = large ? 20 : 12, link = large ? 8 : 4;
+    if (at > size() || size() - at < count_bytes + link) return false;
+    const std::uint64_t left = size() - at - count_bytes - link;
+    return number(at, count_bytes) <= left / entry;
+  }
+
   static tmsize_t read(thandle_t self, void* to, tmsize_t n) {
     auto& in = *static_cast<Memory*>(self);
     const std::uint64_t left = in.bytes_.size() - std::min<std::uint64_t>(in.at_, in.bytes_.size()),
@@ -56,6 +67,14 @@ class Memory {
   std::string why;  // the last complaint
 
  private:
+  [[nodiscard]] std::uint64_t number(std::uint64_t at, std::uint64_t width) const {
+    const bool big = !bytes_.empty() && bytes_[0] == 'M';
+    std::uint64_t out = 0;
+    for (std::uint64_t n = 0; n < width && at + width <= bytes_.size(); ++n)
+      out |= std::uint64_t{bytes_[at + n]} << 8 * (big ? width - 1 - n : n);
+    return out;
+  }
+
   std::vector<std::uint8_t> bytes_;
   std::uint64_t at_ = 0;
 };
@@ -141,6 +160,10 @@ class Tiff final : public TiffFile {
     if (tiff_ == nullptr) return damaged();
     do {
       const Page page = page_of(tiff_);
+      if (!memory_.holds_directory(page.at)) {
+        memory_.why = "it is cut off";
+        return damaged();
+      }
       constexpr std::uint32_t kSmaller = FILETYPE_REDUCEDIMAGE | FILETYPE_MASK;
       if ((tag_value<std::uint32_t>(tiff_, TIFFTAG_SUBFILETYPE, 0) & kSmaller) == 0)
         pages_.push_back(page);

@@ -145,7 +145,14 @@ class FolderReader {
       scans = in_.files;
     }
     if (Status status = read_all(scans); !status) return status.error();
-    if (!found_.scan) return labels_alone();
+    if (!found_.scan) {
+      if (!options_.series.empty() && options_.series != "#1")
+        return error(Trouble::usage,
+                     fmt::format("{}: holds one label map, and `series` names another, \"{}\"; "
+                                 "leave it out",
+                                 folder(), base::printable(options_.series)));
+      return labels_alone();
+    }
     std::vector<fs::path> others = in_.files;
     std::erase(others, found_.scan_file);
     return beside_scan(others, true);

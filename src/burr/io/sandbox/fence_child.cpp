@@ -151,9 +151,10 @@ FenceOutcome read_all(FencedRead read, const FenceRequest& request) {
   return outcome;
 }
 
+// outcome: lives until the message was sent; voxels that end before give their loan back.
 FenceMessage read_one_scan(FencedRead read, const FenceRequest& request, Loans& loans,
-                           std::span<std::uint8_t> letter) {
-  FenceOutcome outcome = read_all(read, request);
+                           std::span<std::uint8_t> letter, FenceOutcome& outcome) {
+  outcome = read_all(read, request);
   if (outcome.scan.ok()) {
     outcome.values = outcome.scan->values.size();
     outcome.labels = outcome.scan->labels.size();
@@ -256,8 +257,9 @@ int answer_one_request(FencedRead read, FencedMesh read_mesh) {
   static Loans loans;  // must outlive all voxels
   set_voxel_lender(&loans);
   const std::span<std::uint8_t> out(bytes, kLetterBytes);
+  FenceOutcome outcome;
   message = request.mesh ? read_one_mesh(read_mesh, request, loans, out)
-                         : read_one_scan(read, request, loans, out);
+                         : read_one_scan(read, request, loans, out, outcome);
   (void)say(message);
   ::_exit(0);  // the voxels stay where they are
 }

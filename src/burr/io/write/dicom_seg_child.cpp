@@ -73,7 +73,7 @@ struct Job {
   const std::uint8_t* labels = nullptr;
   std::size_t columns = 0, rows = 0, slices = 0;
 
-  [[nodiscard]] bool label_map() const { return told.at("kind") == "LABELMAP"; }
+  [[nodiscard]] bool label_map() const { return header.at("kind") == "LABELMAP"; }
   [[nodiscard]] const std::uint8_t* slice(std::size_t k) const {
     return labels + k * rows * columns;
   }

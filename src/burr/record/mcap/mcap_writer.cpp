@@ -120,7 +120,7 @@ Status McapWriter::make_empty(const std::string& path) {
   file_ = -1;
   // a file system that shortens no file may still let it go
   if (::unlink(path.c_str()) == 0)
-    file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file_ < 0) return problem;
   static_cast<void>(lock(file_));
   return fine();
