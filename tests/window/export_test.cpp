@@ -79,7 +79,7 @@ TEST_F(Export, WritesTheBoneWhileTheSessionGoesOn) {
   steps.push_back({"the word that it is written", says("Written: "), nullptr});
   steps.push_back({"... in triangles", says("triangles"), [&] {
                      running = session.running();
-                     press(SDLK_q);
+                     leave_work();
                    }});
   mill_in(*ready, std::move(steps));
   EXPECT_TRUE(running);
@@ -98,7 +98,7 @@ TEST_F(Export, WritesWhatWasRemovedAndItsVolumeIsThatOfTheLedger) {
   auto steps = cuts(session);
   steps.push_back({"the page", looks(5), [] { choose(1); }});
   steps.push_back({"the choice", looks(5), [] { write(); }});
-  steps.push_back({"the word that it is written", says("triangles"), [] { press(SDLK_q); }});
+  steps.push_back({"the word that it is written", says("triangles"), [] { leave_work(); }});
   mill_in(*ready, std::move(steps));
   const double removed = session.outcome().ledger.removed;
   ASSERT_GT(removed, 0) << "nothing was cut: the test shows nothing";
@@ -121,7 +121,7 @@ TEST_F(Export, AsksBeforeItReplacesAFile) {
                       before = bytes_of(folder_ / "picture.png");
                       write();  // now it says: replace it
                     }},
-                   {"the word that it is written", says("Written: "), [] { press(SDLK_q); }}});
+                   {"the word that it is written", says("Written: "), [] { leave_work(); }}});
   EXPECT_EQ(before, "mine");
   EXPECT_EQ(bytes_of(folder_ / "picture.png").substr(1, 3), "PNG");
 }
@@ -158,7 +158,7 @@ TEST_F(Export, SaysWhatIsWrongAndOneGoesOn) {
           return full.find("File too large") != std::string::npos;
         },
         [] { press(SDLK_ESCAPE); }},
-       {"no page", looks(5), [] { press(SDLK_q); }}});
+       {"no page", looks(5), [] { leave_work(); }}});
   ::setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, was);
   EXPECT_NE(full.find("bone"), std::string::npos) << full;

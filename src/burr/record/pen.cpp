@@ -11,6 +11,8 @@
 
 #include "burr/base/version.h"
 #include "burr/record/bone_blob.h"
+#include "burr/record/course.h"
+#include "burr/record/mcap/mcap_reader.h"
 
 namespace burr::record {
 namespace {
@@ -22,17 +24,25 @@ constexpr double kBatch = 10e-3;       // ticks in one message [s]
 // small enough that writing one delays the ticks by only a few milliseconds
 constexpr std::size_t kBricksPerMessage = 1024;
 
-// The next row of a tick before `until`; a newer one is kept for the next call.
+// The next row of a tick before `until`; a newer one is kept for the next call. first_tick: of the
+// servo's tick 0 in the file.
 template <class Row>
-bool next_until(rt::Ring<Row>& ring, std::optional<Row>& waiting, std::uint64_t until, Row& row) {
+bool next_until(rt::Ring<Row>& ring, std::optional<Row>& waiting, std::uint64_t first_tick,
+                std::uint64_t until, Row& row) {
   if (!waiting) {
     if (!ring.pop(row)) return false;
+    row.tick += first_tick;
     waiting = row;
   }
   if (waiting->tick >= until) return false;
   row = *waiting;
   waiting.reset();
   return true;
+}
+
+edit::Ledger sum(const edit::Ledger& a, const edit::Ledger& b) {
+  return {a.asked + b.asked, a.removed + b.removed, a.debt + b.debt,     a.not_cut + b.not_cut,
+          a.added + b.added, a.energy + b.energy,   a.undone + b.undone, a.moved + b.moved};
 }
 
 }  // namespace
@@ -53,9 +63,11 @@ Pen::Pen(std::unique_ptr<McapWriter> writer, const Rings& rings, double rate_hz)
 
 Result<std::unique_ptr<Pen>> Pen::begin(std::unique_ptr<McapWriter>& writer,
                                         const SessionInfo& info, const volume::Bone* embed,
-                                        const Rings& rings) {
+                                        const Rings& rings, const EarlierPart* earlier) {
   std::unique_ptr<Pen> pen(new Pen(std::move(writer), rings, info.rate_hz));
-  if (Status begun = pen->write_beginning(info, embed); !begun.ok()) {
+  Status begun =
+      earlier != nullptr ? pen->go_on(info, *earlier) : pen->write_beginning(info, embed);
+  if (!begun.ok()) {
     writer = std::move(pen->writer_);  // with its lock, until the caller has removed the file
     return begun.error();
   }
@@ -72,11 +84,29 @@ Status Pen::write_beginning(const SessionInfo& info, const volume::Bone* embed) 
       !added.ok())
     return added;
 
-  std::array<std::uint16_t, kTopics.size()> ids{};
+  const auto ids = add_topics(nullptr);
+  if (!ids) return ids.error();
+  if (embed != nullptr)
+    if (Status added =
+            writer_->add_attachment(kBoneAttachment, kBoneMediaType, bone_to_blob(*embed));
+        !added.ok())
+      return added;
+  writer_->add_message((*ids)[0], 1, 0, as_bytes(to_json(info)));
+  name_channels(*ids);
+  return writer_->close_chunk();
+}
+
+// The channels of a recording; those of the earlier one keep their numbers.
+Result<Pen::ChannelIds> Pen::add_topics(const McapReader* earlier) {
+  ChannelIds ids{};
   std::map<std::string, std::uint16_t> schemas;
+  if (earlier != nullptr)
+    for (const mcap::Schema& schema : earlier->schemas()) schemas[schema.name] = schema.id;
   for (std::size_t i = 0; i < kTopics.size(); ++i) {
     const Topic& topic = kTopics[i];
     if (topic.name == std::string_view(kSecond.name) && rings_.second == nullptr) continue;
+    if (earlier != nullptr) ids[i] = earlier->channel_of(topic.name);
+    if (ids[i] != 0) continue;
     if (!schemas.contains(topic.schema_name)) {
       const auto schema = writer_->add_schema(topic.schema_name, topic.schema_encoding,
                                               schema_data(topic.schema_name));
@@ -87,13 +117,33 @@ Status Pen::write_beginning(const SessionInfo& info, const volume::Bone* embed) 
     if (!id) return id.error();
     ids[i] = *id;
   }
-  if (embed != nullptr)
-    if (Status added =
-            writer_->add_attachment(kBoneAttachment, kBoneMediaType, bone_to_blob(*embed));
-        !added.ok())
-      return added;
-  writer_->add_message(ids[0], 1, 0, as_bytes(to_json(info)));
-  name_channels(ids);
+  return ids;
+}
+
+// The earlier recording, and after it the description of the part that begins now.
+Status Pen::go_on(const SessionInfo& asked, const EarlierPart& earlier) {
+  const auto from = McapReader::open(earlier.file);
+  if (!from) return from.error();
+  if (Status copied = copy_earlier_part(**from, *writer_); !copied.ok()) return copied;
+  const auto ids = add_topics(from->get());
+  if (!ids) return ids.error();
+  name_channels(*ids);
+  first_tick_ = end_tick_ = keyframe_tick_ = earlier.ticks;
+  ledger_before_ = earlier.ledger;
+  second_ledger_before_ = earlier.second_ledger;
+  mirror_ = earlier.bricks;
+  batch_ = earlier.batch;
+  changed_since_keyframe_ = !mirror_.empty();
+  account_ = before_ = earlier.account;
+  written_ticks_.store(account_.ticks);
+  SessionInfo info = asked;
+  info.first_tick = first_tick_;
+  info.goes_on_with = earlier.sha1;
+  writer_->add_message((*ids)[0], 1, time_ns(first_tick_), as_bytes(to_json(info)));
+  put(course_channel_, first_tick_,
+      as_bytes(to_json(CourseEvent{.tick = first_tick_, .kind = CourseKind::continued})));
+  ++account_.events;
+  put_event("continued");
   return writer_->close_chunk();
 }
 
@@ -140,17 +190,16 @@ Status Pen::drain_last(bool stopped) {
   if (Status drained = drain(true); !drained.ok()) return drained;
   put_event(stopped ? "stopped" : "finished");
   const auto number = [](std::uint64_t value) { return fmt::format("{}", value); };
-  return writer_->add_metadata("burr.account",
-                               {{"ticks", number(account_.ticks)},
-                                {"wishes", number(account_.commands)},
-                                {"brick_rows", number(account_.brick_rows)},
-                                {"keyframes", number(account_.keyframes)},
-                                {"views", number(account_.views)},
-                                {"events", number(account_.events)},
-                                {"dropped_ticks", number(account_.dropped_ticks)},
-                                {"dropped_wishes", number(account_.dropped_commands)},
-                                {"dropped_bricks", number(account_.dropped_bricks)},
-                                {"dropped_notes", number(account_.dropped_notes)}});
+  return writer_->add_metadata(kAccountName, {{"ticks", number(account_.ticks)},
+                                              {"wishes", number(account_.commands)},
+                                              {"brick_rows", number(account_.brick_rows)},
+                                              {"keyframes", number(account_.keyframes)},
+                                              {"views", number(account_.views)},
+                                              {"events", number(account_.events)},
+                                              {"dropped_ticks", number(account_.dropped_ticks)},
+                                              {"dropped_wishes", number(account_.dropped_commands)},
+                                              {"dropped_bricks", number(account_.dropped_bricks)},
+                                              {"dropped_notes", number(account_.dropped_notes)}});
 }
 
 Status Pen::finish() {
@@ -186,7 +235,7 @@ void Pen::discard() {
   while (rings_.bricks.pop(brick)) ++account_.dropped_bricks;
   while (rings_.second && rings_.second->pop(tick)) ++account_.dropped_ticks;
   notes_.drop_all();
-  account_.dropped_notes = notes_.dropped();
+  account_.dropped_notes = before_.dropped_notes + notes_.dropped();
 }
 
 void Pen::lose_unwritten() {
@@ -215,6 +264,8 @@ void Pen::take_ticks() {
   tick::TickRow row;
   // at most as many as there are now: a servo as fast as this thread would keep it here for ever
   for (std::size_t left = rings_.ticks.size(); left > 0 && rings_.ticks.pop(row); --left) {
+    row.tick += first_tick_;
+    if (first_tick_ > 0) row.ledger = sum(ledger_before_, row.ledger);
     rows.push_back(row);
     if (rows.size() < per_message && left > 1) continue;
     message_.clear();
@@ -241,7 +292,8 @@ void Pen::take_second(std::uint64_t until) {
     put(second_channel_, rows.front().tick, message_.span());
     rows.clear();
   };
-  while (next_until(*rings_.second, waiting_second_, until, row)) {
+  while (next_until(*rings_.second, waiting_second_, first_tick_, until, row)) {
+    if (first_tick_ > 0) row.ledger = sum(second_ledger_before_, row.ledger);
     rows.push_back(row);
     if (rows.size() >= rows_per_message()) put_rows();
   }
@@ -250,7 +302,7 @@ void Pen::take_second(std::uint64_t until) {
 
 void Pen::take_commands(std::uint64_t until) {
   tick::CommandRow row;
-  while (next_until(rings_.commands, waiting_command_, until, row)) {
+  while (next_until(rings_.commands, waiting_command_, first_tick_, until, row)) {
     put(command_channel_, row.tick, as_bytes(to_json(row)));
     ++account_.commands;
   }
@@ -259,7 +311,7 @@ void Pen::take_commands(std::uint64_t until) {
 void Pen::take_bricks(std::uint64_t until) {
   Bricks bricks;
   tick::BrickRow row;
-  while (next_until(rings_.bricks, waiting_brick_, until, row)) {
+  while (next_until(rings_.bricks, waiting_brick_, first_tick_, until, row)) {
     // the new content goes to the mirror, the difference to the file
     BrickContent& mirror = mirror_[row.brick];
     BrickContent change;
@@ -348,10 +400,11 @@ void Pen::note_dropped() {
                       account_.dropped_notes);
   };
   const auto before = lost();
-  account_.dropped_ticks = rings_.ticks.dropped() + (rings_.second ? rings_.second->dropped() : 0);
-  account_.dropped_commands = rings_.commands.dropped();
-  account_.dropped_bricks = rings_.bricks.dropped();
-  account_.dropped_notes = notes_.dropped();
+  account_.dropped_ticks = before_.dropped_ticks + rings_.ticks.dropped() +
+                           (rings_.second ? rings_.second->dropped() : 0);
+  account_.dropped_commands = before_.dropped_commands + rings_.commands.dropped();
+  account_.dropped_bricks = before_.dropped_bricks + rings_.bricks.dropped();
+  account_.dropped_notes = before_.dropped_notes + notes_.dropped();
   if (before != lost()) put_event("dropped");
 }
 

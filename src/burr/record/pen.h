@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/record/earlier_part.h"
 #include "burr/record/mcap/mcap_writer.h"
 #include "burr/record/recording_stats.h"
 #include "burr/record/schema.h"
@@ -48,11 +49,13 @@ class Pen {
   [[nodiscard]] static SessionInfo completed(const SessionInfo& asked, double rate_hz, bool embed);
 
   // Writes the beginning, down to the description of the session. The writer's file is open. info:
-  // completed(). embed: nullptr: without the bone.
+  // completed(). embed: nullptr: without the bone. earlier: the recording that this one goes on with;
+  // nullptr: it is a new one.
   [[nodiscard]] static Result<std::unique_ptr<Pen>> begin(std::unique_ptr<McapWriter>& writer,
                                                           const SessionInfo& info,
                                                           const volume::Bone* embed,
-                                                          const Rings& rings);
+                                                          const Rings& rings,
+                                                          const EarlierPart* earlier = nullptr);
 
   // Called after each chunk that was given to the kernel.
   void set_on_chunk(std::function<void()> what) { on_chunk_ = std::move(what); }
@@ -77,11 +80,13 @@ class Pen {
   [[nodiscard]] RecordingStats stats() const;
 
  private:
+  using ChannelIds = std::array<std::uint16_t, kTopics.size()>;
   Pen(std::unique_ptr<McapWriter> writer, const Rings& rings, double rate_hz);
   [[nodiscard]] Status drain(bool last);
   [[nodiscard]] Status write_chunk();
-  using ChannelIds = std::array<std::uint16_t, kTopics.size()>;
   [[nodiscard]] Status write_beginning(const SessionInfo& info, const volume::Bone* embed);
+  [[nodiscard]] Status go_on(const SessionInfo& info, const EarlierPart& earlier);
+  [[nodiscard]] Result<ChannelIds> add_topics(const McapReader* earlier);
   void name_channels(const ChannelIds& ids);
   [[nodiscard]] std::uint64_t time_ns(std::uint64_t tick) const;
   void put(std::uint16_t channel, std::uint64_t tick, ByteSpan message);
@@ -112,6 +117,10 @@ class Pen {
   BytesOut message_;
   RecordingStats account_;
   std::chrono::steady_clock::time_point last_write_;
+  // Of the part of the session that is recorded now; the servo counts from 0.
+  std::uint64_t first_tick_ = 0;
+  edit::Ledger ledger_before_, second_ledger_before_;
+  RecordingStats before_;       // the account of the earlier parts
   std::uint64_t end_tick_ = 0;  // ticks before this one have been taken
   std::optional<tick::CommandRow> waiting_command_;
   std::optional<tick::BrickRow> waiting_brick_;
