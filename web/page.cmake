@@ -82,15 +82,22 @@ target_link_options(burr_replay PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
 # The second module, burr_score: the steps of the case, its score and the report. It is loaded when the first cut is possible,
-# so that nobody waits for it. Its texts: the page's case, its rubric, the tools, the words of the window.
+# so that nobody waits for it. Its texts: the cases, their rubrics, the tools, the words of the window.
 include(${PROJECT_SOURCE_DIR}/cmake/words.cmake)
 function(burr_text variable name file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${file} text)
   set(${variable} "    {\"${name}\", R\"toml(${text})toml\"},\n" PARENT_SCOPE)
 endfunction()
-burr_text(BURR_CASE_TEXTS temporal-bone ${PROJECT_SOURCE_DIR}/cases/temporal_bone.toml)
-burr_text(BURR_RUBRIC_TEXTS temporal-bone ${PROJECT_SOURCE_DIR}/rubrics/temporal_bone.toml)
+set(BURR_CASE_TEXTS "")
+set(BURR_RUBRIC_TEXTS "")
+foreach(file temporal_bone jaw spine tooth block)
+  string(REPLACE _ - name ${file})
+  burr_text(case_text ${name} ${PROJECT_SOURCE_DIR}/cases/${file}.toml)
+  burr_text(rubric_text ${name} ${PROJECT_SOURCE_DIR}/rubrics/${file}.toml)
+  string(APPEND BURR_CASE_TEXTS "${case_text}")
+  string(APPEND BURR_RUBRIC_TEXTS "${rubric_text}")
+endforeach()
 file(READ ${PROJECT_SOURCE_DIR}/tools/tools.toml BURR_TOOLS_TEXT)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/tools.toml)
 foreach(texts cases rubrics tools)
@@ -116,7 +123,7 @@ target_link_libraries(burr_score PRIVATE burr_score_parts burr_record_parts burr
 set_target_properties(burr_score PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)
 target_link_options(burr_score PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=worker -sFORCE_FILESYSTEM=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=4GB
-  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS)
+  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
 # The third module, burr_sound: a sound thread loads nothing and has no JavaScript of emscripten's.
 add_executable(burr_sound ${web_dir}/sound/sound_api.cpp ${src}/sound/synth.cpp ${src}/workshop/sound_tracker.cpp)

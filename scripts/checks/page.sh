@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The page, burr in a browser: opens, mills, records, in Chromium without a screen (web/tests/page_test.py), and
-# has the course of a session: steps, score, report, sound (web/tests/course_test.py). The page is the
-# one that scripts/checks/portable.sh web has built. First its codecs, by node (tests/web/page_codecs.h).
+# has the course of a session: steps, score, report, sound (web/tests/course_test.py); no work is lost (web/tests/loss_test.py), and it is
+# right on any screen (web/tests/screens_test.py). The page is the one that scripts/checks/portable.sh web has built. First its codecs, by
+# node (tests/web/page_codecs.h).
 #
 #     scripts/checks/page.sh BUILD [PICTURES]      PICTURES: a folder that keeps the screenshots
 #
@@ -30,3 +31,5 @@ grep -q "holds other files" "$out/said"
 BURR_SITE=$out/page "$build/test_web" --gtest_brief=1 --gtest_filter='PageCodecs*'
 python3 web/tests/page_test.py "$out/page" "$build/burr" ${2:+"$2"}
 python3 web/tests/course_test.py "$out/page" "$build/burr" ${2:+"$2"}
+python3 web/tests/loss_test.py "$out/page" "$build/burr" ${2:+"$2"}
+python3 web/tests/screens_test.py "$out/page" build/web/axe ${2:+"$2"}

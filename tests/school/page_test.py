@@ -431,6 +431,7 @@ def check_replay(page, sessions):
     assert page.run(moment) != first, "the words of the moment stand still"
     if built:
         page.wait("window.performance.now() > 0 && document.querySelector('canvas.bone').width > 100", WAIT)
+        check_evidence(page)
     look(page, "replay")
     page.run(button.format("'Play'") + ".click()")
     page.wait(f"Number(document.querySelector('.player input').value) !== {at}", WAIT)
@@ -452,6 +453,25 @@ def check_replay(page, sessions):
     same(page.run("document.querySelectorAll('.two canvas').length"), 2, "pictures beside each other")
     # another view ends the pictures
     go(page, "/")
+
+
+def check_evidence(page):
+    """A lost point with a place: the view turns to it, and a ring marks it in the middle of the picture. A lost context: the picture comes back."""
+    ring = """(() => { const one = document.querySelector('.bone-ring'); if (one.hidden) return null;
+      const [a, b] = [one, document.querySelector('canvas.bone')].map(part => part.getBoundingClientRect());
+      return Math.hypot(a.left + a.width / 2 - b.left - b.width / 2, a.top + a.height / 2 - b.top - b.height / 2); })()"""
+    count = page.run("document.querySelectorAll('main td button').length")
+    for n in range(count):
+        page.run(f"document.querySelectorAll('main td button')[{n}].click()")
+        time.sleep(4)
+        if page.run(ring) is not None:
+            break
+    else:
+        raise AssertionError(f"none of {count} lost points turns the view to its place")
+    page.wait(f"{ring} < 3", WAIT)
+    page.run("(() => { const one = document.querySelector('canvas.bone'); one.was_lost = true; one.getContext('webgl2').getExtension('WEBGL_lose_context').loseContext(); })()")
+    page.wait("document.querySelector('canvas.bone') && !document.querySelector('canvas.bone').was_lost || document.querySelector('.bone-state.wrong')", WAIT)
+    same(page.run("document.querySelectorAll('.bone-state.wrong').length"), 0, "troubles after a lost context")
 
 
 def check_live(page, server, folder):

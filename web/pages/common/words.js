@@ -2,9 +2,17 @@
 // otherwise English.
 let all = {};
 let language = 'en';
+// What is said while the words are not there, for example because the host has gone.
+const kFirst = {
+  loading: 'Loading',
+  broken: 'The page has stopped: {}. Load it again.',
+  no_module: 'This browser cannot run the page: it lacks WebAssembly with SIMD. Update it.',
+};
 
 export async function load() {
-  all = await (await fetch(new URL('../words.json', import.meta.url))).json();
+  const answer = await fetch(new URL('../words.json', import.meta.url));
+  if (!answer.ok) throw new Error(`words.json: ${answer.status}`);
+  all = await answer.json();
   const wanted = [new URLSearchParams(location.search).get('language'), stored(), ...navigator.languages];
   language = wanted.map((one) => (one ?? '').slice(0, 2)).find((one) => one in all) ?? 'en';
   document.documentElement.lang = language;
@@ -12,7 +20,7 @@ export async function load() {
 
 // word('left_out', 12)
 export function word(key, ...parts) {
-  const text = all[language]?.[key] ?? all.en?.[key] ?? key;
+  const text = all[language]?.[key] ?? all.en?.[key] ?? kFirst[key] ?? '';  // never a bare key
   return text.replace(/\{[^}]*\}/g, (gap) => parts.shift() ?? gap);
 }
 export const languages = () => Object.entries(all).map(([code, words]) => ({code, name: words.name}));
@@ -24,6 +32,8 @@ export function choose(code) {
     localStorage.setItem('burr.language', code);
   } catch { /* not kept */ }
 }
+// "12 s", "3 min 20 s"
+export const duration = (seconds) => (seconds < 60 ? `${number(seconds, 0)} s` : `${Math.floor(seconds / 60)} min ${number(Math.floor(seconds % 60), 0)} s`);
 export const number = (value, digits) =>
     value.toLocaleString(language, {minimumFractionDigits: digits, maximumFractionDigits: digits});
 

@@ -1,35 +1,28 @@
 // The course of a session on the page: the steps of the case beside the picture, and at the end the question, the user's own
 // marks, what burr found, and the report. What is said and decided comes from score_worker.js, which runs the window's code.
 import * as words from '../common/words.js';
+import {ask, button, make} from './ask.js';
 
 const {word} = words;
 const kRest = 3000;  // from the end of a measurement to the next [ms], as in the window
 
 const $ = (id) => document.getElementById(id);
 
-// make('p', {class: 'dim'}, 'text', child, ...)
-function make(tag, with_what = {}, ...inside) {
-  const one = document.createElement(tag);
-  for (const [name, value] of Object.entries(with_what)) {
-    if (name === 'click') one.addEventListener('click', value);
-    else if (typeof value === 'boolean') one.toggleAttribute(name, value);
-    else one.setAttribute(name, value);
-  }
-  one.append(...inside.filter((part) => part !== null && part !== ''));
-  return one;
-}
-const button = (text, click, more = {}) => make('button', {type: 'button', click, ...more}, text);
 const kSigns = {good: '✓ ', bad: '✗ ', open: '○ ', none: ''};
 const mark_of = ({word: text, tone}) => make('span', {class: tone}, kSigns[tone] + text);
 
 export class Course {
   // host: tell(message for the worker that ticks), say(text, ms), figures(), picture(), keep(bytes, name, type), changed(),
-  // opened(compiled), step(id), light(what is lit or null)
+  // opened(compiled), step(id), light(what is lit or null), look_at(place, its name),
+  // kept() the id of the recording in the browser's storage, or null
   constructor(host) {
     this.host = host;
     this.worker = null;
     this.loaded = false;  // the worker is there, and asks for nothing any more
     this.texts = {};      // of the window, by key
+    this.cases = [];      // that there are: {name, title, voxel_mm}
+    this.open = false;    // the sheet of the steps, where the screen is narrow
+    this.asked = null;    // who waits for a case or a recording
     this.clear();
   }
 
@@ -47,16 +40,29 @@ export class Course {
     clearTimeout(this.timer);
   }
 
-  // Of a bone that is ready, before its first cut.
-  begin(voxel, mode, work) {
+  // Of a bone that is ready, before its first cut; or of a session that came back, with what had happened in it.
+  begin(name, voxel, mode, work, events = null) {
     this.work = work;
     this.mode = mode;
-    if (this.worker === null) {
-      this.worker = new Worker(new URL('score_worker.js', import.meta.url), {type: 'module'});
-      this.worker.onmessage = ({data}) => this.hear(data);
-      this.worker.onerror = (what) => this.fail(what.message || 'worker');
-    }
-    this.post({kind: 'open', voxel, mode, language: words.present()});
+    this.begin_worker();
+    this.post({kind: 'open', name, voxel, mode, language: words.present(), came_back: events});
+  }
+  begin_worker() {
+    if (this.worker !== null) return;
+    this.worker = new Worker(new URL('score_worker.js', import.meta.url), {type: 'module'});
+    this.worker.onmessage = ({data}) => this.hear(data);
+    this.worker.onerror = (what) => this.fail(what.message || 'worker');
+  }
+  // What is known of a case, and its bone.
+  ask_case(name, voxel = 0) { return this.ask_worker({kind: 'case', name, voxel}); }
+  // A recording, to be computed again: what it says of itself, its bone if that is wanted, and the port from which its ticks come.
+  ask_redo(file, with_bone) { return this.ask_worker({kind: 'redo', file, with_bone}); }
+  ask_worker(message) {
+    this.begin_worker();
+    return new Promise((go, stop) => {
+      this.asked = {go, stop};
+      this.worker.postMessage({...message, language: words.present()});
+    });
   }
   // Of a bone that has no case: no steps, no score. What still comes of the bone before is left.
   leave(work) {
@@ -77,6 +83,7 @@ export class Course {
   fail(text) {
     this.trouble = text;
     this.loaded = true;
+    this.asked?.stop(new Error(text));
     console.error(text);
     this.host.say(word('no_steps', text), 12000);
     if (this.page) this.show_review();
@@ -84,9 +91,14 @@ export class Course {
   }
 
   hear(data) {
+    if (data.kind === 'asked') {
+      const {go, stop} = this.asked;
+      return data.why ? stop(new Error(data.why)) : go(data);
+    }
     if (data.kind === 'broken') return this.fail(data.text);
     if (data.work !== this.work) return;
     if (data.words) this.texts = data.words;
+    if (data.cases) this.cases = data.cases;
     if (data.questions) this.questions = data.questions;
     if (data.steps) this.steps = data.steps;
     if (data.events?.length > 0 && this.lit) this.put_out();  // it was the target of another step
@@ -189,6 +201,7 @@ export class Course {
     panel.hidden = !this.shown || !this.offers_steps() || this.page !== null;
     if (!panel.hidden) {
       const held = [...panel.querySelectorAll('button')].indexOf(document.activeElement);
+      panel.classList.toggle('open', this.open);
       panel.replaceChildren(...this.panel());
       if (held >= 0) ([...panel.querySelectorAll('button')][held] ?? $('picture')).focus();
     }
@@ -202,30 +215,30 @@ export class Course {
       now.tool && make('p', {class: 'small'}, now.tool), now.spare && make('p', {class: 'warn'}, now.spare),
       button(this.text('steps_done', 'J'), () => this.step_done(), {id: 'step_done'}),
       this.lights() && button(this.text(this.lit ? 'steps_unlight' : 'steps_light', 'A'), () => this.toggle_light(), {id: 'step_light'}),
-    ] : [make('p', {class: 'good'}, this.text('steps_all_done'))];
+    ] : [make('p', {class: 'good title'}, this.text('steps_all_done'))];
+    const fold = button(this.open ? '▾' : '▴', () => {
+      this.open = !this.open;
+      this.show();
+    }, {id: 'course_fold', 'aria-expanded': String(this.open), 'aria-controls': 'course', 'aria-label': word(this.open ? 'fold_close' : 'fold_open')});
     const list = make('ol', {}, ...rows.map((row, n) => make('li', {}, button(
         (row.done ? '✓ ' : row.current ? '▸ ' : '○ ') + row.title,
         () => { if (!row.current) this.post({kind: 'choose', row: n}); },
         {title: row.current ? '' : this.text(row.done ? 'steps_reopen' : 'steps_choose'), ...(row.current && {'aria-current': 'step'})}))));
-    return [...about.filter(Boolean), list];
+    return [...about.filter(Boolean), list, fold];
   }
 
   // ---- the end
 
   can_finish() { return this.loaded && this.steps !== null && this.page === null; }
-  covers() { return this.page !== null || $('ask').open; }
+  covers() { return (this.page !== null && !$('review').hidden) || $('ask').open; }
 
   ask_done() {
     if (!this.can_finish() || $('ask').open) return;
     if (!(this.host.figures().removed > 0)) return this.host.say(this.text('done_nothing'), 5000);
-    const ask = $('ask'), close = () => ask.close();
-    ask.replaceChildren(
-        make('h2', {id: 'ask_title'}, this.text('done_title')), make('p', {}, this.text('done_told')),
-        this.steps.open > 0 ? make('p', {class: 'warn'}, this.text('done_open_steps', this.steps.open)) : '',
-        make('nav', {}, button(this.text('done_yes'), () => { close(); this.finish(); }, {id: 'done_yes'}),
-             button(this.text('done_no'), close, {id: 'done_no'})));
-    ask.setAttribute('aria-labelledby', 'ask_title');
-    ask.showModal();
+    ask(this.text('done_title'), [
+      make('p', {}, this.text('done_told')),
+      this.steps.open > 0 && make('p', {class: 'warn'}, this.text('done_open_steps', this.steps.open)),
+    ], [['done_yes', this.text('done_yes'), () => this.finish()], ['done_no', this.text('done_no')]]);
   }
 
   // The work is done: the picture is taken, then the user marks his own work.
@@ -255,6 +268,21 @@ export class Course {
     if (this.page === 'waits') this.post({kind: 'mark', file: data.file}, [data.file.buffer]);
     this.show();
     return true;
+  }
+  show_again() {
+    $('review').hidden = false;
+    this.show_review();
+  }
+  // The moment of an item, in the page that shows recordings: time and view both go there.
+  moment_of({at_s, place}) {
+    const id = this.host.kept();
+    if (at_s === null || !id) return null;
+    const to = new URLSearchParams({kept: id, at: at_s.toFixed(2), language: words.present(), ...(place && {place: place.map((one) => one.toFixed(5)).join(',')})});
+    return make('a', {href: `../replay/?${to}`, target: '_blank', rel: 'noopener', class: 'watch_moment'}, word('watch_moment', words.number(at_s, 1)));
+  }
+  look_at(item) {
+    $('review').hidden = true;
+    this.host.look_at(item.place, item.text);
   }
   save() {
     if (this.page === null) return false;
@@ -346,7 +374,8 @@ export class Course {
           report.has_self ? make('td', {class: 'mark'}, mark_of(item.self)) : '', make('td', {class: 'mark'}, mark_of(item.machine)),
           make('td', {}, item.text, item.gate ? ` (${this.text('report_gate')})` : '',
                make('div', {class: 'dim'}, item.figures, item.default && ` (${item.default})`),
-               ...item.remarks.map((one) => make('div', {class: 'dim'}, one))))),
+               ...item.remarks.map((one) => make('div', {class: 'dim'}, one)),
+               item.place && button(word('show_place'), () => this.look_at(item), {class: 'show_place'}), this.moment_of(item)))),
     ]);
     return [left, make('table', {}, head, ...rows)];
   }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <tuple>
 
 #include "burr/base/check.h"
 #include "burr/base/version.h"
@@ -345,8 +346,53 @@ Status McapWriter::read_back(BytesOut& chunk_indexes) const {
   return fine();
 }
 
+Status McapWriter::copy_bytes_to(int file) const {
+  std::vector<std::uint8_t> some(std::size_t{1} << 16);
+  for (std::uint64_t at = 0; at < size_;) {
+    const auto some_more =
+        static_cast<std::size_t>(std::min<std::uint64_t>(some.size(), size_ - at));
+    const ssize_t read = ::pread(file_, some.data(), some_more, static_cast<off_t>(at));
+    if (read < 0 && errno == EINTR) continue;
+    if (read <= 0) return trouble(shown_, "be read back");
+    for (ssize_t done = 0; done < read;) {
+      const ssize_t n = ::write(file, some.data() + done, static_cast<std::size_t>(read - done));
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) return trouble(shown_, "be copied");
+      done += n;
+    }
+    at += static_cast<std::uint64_t>(read);
+  }
+  return fine();
+}
+
+Status McapWriter::copy_to(const std::string& path, const std::string& shown) {
+  const int copy = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (copy < 0) return trouble(shown, "be written");
+  Status done = copy_bytes_to(copy);
+  if (done.ok()) {  // for so long this is the writer of the copy; what it knows of the file so far is true of both
+    const auto mine = std::tuple(file_, shown_, failed_, size_, crc_);
+    file_ = copy;
+    shown_ = shown;
+    done = append_end();
+    std::tie(file_, shown_, failed_, size_, crc_) = mine;
+  }
+  if (::close(copy) != 0 && done.ok()) done = trouble(shown, "be closed");
+  if (!done.ok()) ::unlink(path.c_str());
+  return done;
+}
+
 Status McapWriter::finish() {
   if (Status closed = close_chunk(); !closed.ok()) return closed;
+  if (Status written = append_end(); !written.ok()) return written;
+  if (Status synced = sync(); !synced.ok()) return synced;
+  const int file = file_;
+  file_ = -1;
+  if (::close(file) != 0) return trouble(shown_, "be closed");
+  return fine();
+}
+
+// What makes the file complete: the summary and the footer.
+Status McapWriter::append_end() {
   BytesOut chunk_indexes;
   if (Status read = read_back(chunk_indexes); !read.ok()) return read;
   BytesOut end;
@@ -423,12 +469,7 @@ Status McapWriter::finish() {
   summary.put(offsets_start);
   summary.put(crc32(summary.span()));
   summary.raw(mcap::kMagic);
-  if (Status written = append(summary.span()); !written.ok()) return written;
-  if (Status synced = sync(); !synced.ok()) return synced;
-  const int file = file_;
-  file_ = -1;
-  if (::close(file) != 0) return trouble(shown_, "be closed");
-  return fine();
+  return append(summary.span());
 }
 
 }  // namespace burr::record

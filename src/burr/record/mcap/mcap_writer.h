@@ -2,7 +2,7 @@
 // chunk at a time, so that a killed process leaves a file that is good up to its last chunk.
 //
 //     writer.open(path) -> schema, channel, metadata, attachment
-//                       -> [ message, message ... close_chunk ]*  -> finish
+//                       -> [ message, message ... close_chunk | copy_to ]*  -> finish
 //
 // Thread: one at a time; only sync() may be called from another. Memory: one chunk, however long
 // the recording; for the summary, the index of all chunks is read back from the file at the end.
@@ -62,6 +62,9 @@ class McapWriter {
   [[nodiscard]] Status sync();
   // Error: somebody has removed the file; what is written now belongs to no folder.
   [[nodiscard]] Status still_there() const;
+  // A complete file of everything up to the last chunk, beside this one, which goes on as if nothing
+  // had happened. `shown`: its name in errors. It is overwritten, and removed again if it fails.
+  [[nodiscard]] Status copy_to(const std::string& path, const std::string& shown);
   // Summary, footer, sync, close.
   [[nodiscard]] Status finish();
 
@@ -72,6 +75,8 @@ class McapWriter {
   [[nodiscard]] Status append_record(mcap::Kind kind, ByteSpan content);
   void count(const mcap::MessageIndexes& indexes, const mcap::ChunkAt& chunk);
   [[nodiscard]] Status read_back(BytesOut& chunk_indexes) const;
+  [[nodiscard]] Status copy_bytes_to(int file) const;
+  [[nodiscard]] Status append_end();
 
   std::string shown_;
   int file_ = -1;
