@@ -14,7 +14,7 @@ target_link_libraries(burr_crtk PUBLIC CycloneDDS::ddsc)
 # burr-guard: releases the force of a device if burr dies (src/burr/device/guardian.h); small, so
 # that it starts at once
 add_executable(burr_guard ${PROJECT_SOURCE_DIR}/apps/burr-guard/main.cpp
-  ${PROJECT_SOURCE_DIR}/src/burr/device/crtk/bus.cpp ${PROJECT_SOURCE_DIR}/src/burr/base/check.cpp)
+  ${PROJECT_SOURCE_DIR}/src/burr/device/crtk/bus.cpp ${PROJECT_SOURCE_DIR}/src/burr/device/crtk/reach.cpp ${PROJECT_SOURCE_DIR}/src/burr/base/check.cpp)
 set_target_properties(burr_guard PROPERTIES OUTPUT_NAME burr-guard RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_include_directories(burr_guard PRIVATE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(burr_guard PRIVATE burr_crtk Eigen3::Eigen Threads::Threads fmt::fmt burr_options)

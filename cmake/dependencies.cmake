@@ -24,7 +24,7 @@ find_package(OpenSSL 3 REQUIRED)  # TLS of `burr serve`
 find_package(PNG REQUIRED)  # pictures of AMBF's volumes; stb only writes
 pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)  # and their description
 find_package(meshoptimizer REQUIRED)
-pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # meshes of tools; in tests, reads back what burr writes
+pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)  # in tests alone: reads back the meshes that burr writes, and reads what burr reads
 find_path(BURR_GDCM_INCLUDE gdcmImageReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
 find_library(BURR_GDCM_MSFF gdcmMSFF REQUIRED)
 find_library(BURR_GDCM_DSED gdcmDSED REQUIRED)

@@ -8,7 +8,7 @@ endif()
 # common to all targets; the readers and everything for a replay come from the sanitized library
 add_library(burr_fuzzed STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/fuzz/support.cpp)
 target_include_directories(burr_fuzzed PUBLIC ${PROJECT_SOURCE_DIR}/fuzz)
-target_link_libraries(burr_fuzzed PUBLIC burr burr_readers burr_options fmt::fmt PkgConfig::ZSTD PkgConfig::ASSIMP nlohmann_json::nlohmann_json)
+target_link_libraries(burr_fuzzed PUBLIC burr burr_readers burr_options fmt::fmt PkgConfig::ZSTD nlohmann_json::nlohmann_json)
 
 add_custom_target(fuzzers)
 file(GLOB fuzz_targets CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/fuzz/*_fuzz.cpp)

@@ -103,7 +103,7 @@ burr_part(burr_session FROM device/ people/ fit/ metrics/ scoring/ surgeon/ sim/
 burr_part(burr_files FROM base/ io/ importing/ scenario/ phantom/ record/
   MORE ${CMAKE_BINARY_DIR}/built_in_cases.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp ${CMAKE_BINARY_DIR}/built_in_tools.cpp
     ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp
-  WITH ZLIB::ZLIB BZip2::BZip2 PkgConfig::ZSTD PkgConfig::ASSIMP nlohmann_json::nlohmann_json ${CMAKE_DL_LIBS})
+  WITH ZLIB::ZLIB BZip2::BZip2 PkgConfig::ZSTD nlohmann_json::nlohmann_json ${CMAKE_DL_LIBS})
 # The web server and what asks other servers are for the program alone: who cuts bone with libburr.so loads no TLS.
 set(net_sources ${rest})
 list(FILTER net_sources INCLUDE REGEX "/src/burr/net/")

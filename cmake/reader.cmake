@@ -1,10 +1,11 @@
-# burr-read: reads one scan in a process of its own (src/burr/io/sandbox/fence.h). It contains the
+# burr-read: reads one scan or one mesh in a process of its own (src/burr/io/sandbox/fence.h). It contains the
 # readers and what they need, so it starts in milliseconds. libburr contains only what both sides
 # need, and no codec.
 file(GLOB base CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/burr/base/*.cpp)
 set(BURR_BOTH_SIDES
   io/read/adf_folder.cpp io/read/bytes.cpp io/read/calibration.cpp io/read/label_lists.cpp io/read/label_numbers.cpp io/sandbox/fence_letter.cpp io/sandbox/fence_walls.cpp io/read/samples.cpp io/read/text.cpp io/value_groups.cpp io/voxels.cpp)
 set(BURR_READERS io/read/archive.cpp io/read/compare_frames.cpp io/read/dicom_absent.cpp io/read/dicom_divide.cpp io/read/dicom_elements.cpp io/read/dicom_facts.cpp io/read/dicom_header.cpp io/read/dicom_pixels.cpp io/read/dicom_seg.cpp io/read/dicom_seg_frames.cpp io/read/dicom_series.cpp io/read/dicom_stack.cpp io/read/dicom_volumes.cpp io/read/dicomdir.cpp io/read/foreign.cpp
+  io/read/mesh_builder.cpp io/read/mesh_text.cpp io/read/ply_header.cpp io/read/polygon.cpp io/read/read_mesh_unfenced.cpp io/read/read_obj.cpp io/read/read_ply.cpp io/read/read_stl.cpp
   io/sandbox/fence_child.cpp io/read/geometry.cpp io/read/inverted.cpp io/read/modality.cpp io/read/png.cpp
   io/read/nrrd_header.cpp io/read/nrrd_segments.cpp io/read/read_adf.cpp io/read/read_dicom.cpp io/read/read_meta.cpp io/read/read_nifti.cpp io/read/read_nrrd.cpp io/read/read_unfenced.cpp io/read/yaml.cpp)
 list(TRANSFORM BURR_BOTH_SIDES PREPEND ${PROJECT_SOURCE_DIR}/src/burr/)

@@ -13,7 +13,7 @@ target_include_directories(burr_test_support PUBLIC ${PROJECT_SOURCE_DIR} ${PROJ
 target_link_libraries(burr_test_support PUBLIC burr burr_scenes GTest::gtest fmt::fmt ${CMAKE_DL_LIBS} PRIVATE burr_options)
 
 # two fake servers with all of Boost.Beast, compiled once
-add_library(fake_haply STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/tests/device/fake/fake_haply.cpp)
+add_library(fake_haply STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/tests/device/fake/fake_haply.cpp ${PROJECT_SOURCE_DIR}/tests/device/fake/fake_haply_35.cpp)
 target_include_directories(fake_haply PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(fake_haply PUBLIC burr PRIVATE burr_options nlohmann_json::nlohmann_json)
 burr_glue(fake_haply)

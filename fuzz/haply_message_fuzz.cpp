@@ -18,9 +18,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       for (const haply::Found& arm : arms) {
         std::string message;
         haply::write_force(haply::as_json(arm.id), "vector", {1, 2, 3}, message);
-        fuzz::must(!arm.id.empty() && nlohmann::json::accept(message) &&
-                       nlohmann::json::accept(haply::greeting(haply::as_json(arm.id), "vector")),
-                   "an arm can be spoken to by its id");
+        fuzz::must(
+            !arm.id.empty() && nlohmann::json::accept(message) &&
+                nlohmann::json::accept(haply::greeting(haply::as_json(arm.id), "vector", true)),
+            "an arm can be spoken to by its id");
       }
     const std::vector<std::string> grips = haply::grips_in(text);
     const haply::State before = known;

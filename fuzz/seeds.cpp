@@ -82,6 +82,53 @@ string voxels(int count) {
   return text(out);
 }
 
+// ---- meshes
+
+// A tetrahedron in each form; the first byte chooses the reader (mesh_fuzz.cpp).
+void meshes() {
+  const float places[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::uint32_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  string words = "solid a\n", obj = "# a\n", lines;
+  BytesOut stl, bytes;
+  for (int n = 0; n < 20; ++n) stl.put(std::uint32_t{0});
+  stl.put(std::uint32_t{4});
+  for (const auto& p : places) {
+    const string line =
+        std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]);
+    obj += "v " + line + "\n";
+    lines += line + "\n";
+    for (const float x : p) bytes.put(x);
+  }
+  for (const auto& f : faces) {
+    words += "facet normal 0 0 0\nouter loop\n";
+    obj += "f";
+    lines += "3";
+    bytes.put(std::uint8_t{3});
+    for (int n = 0; n < 3; ++n) stl.put(0.0F);
+    for (const std::uint32_t c : f) {
+      words += "vertex " + std::to_string(places[c][0]) + " " + std::to_string(places[c][1]) + " " +
+               std::to_string(places[c][2]) + "\n";
+      obj += " " + std::to_string(c + 1) + "/1/1";
+      lines += " " + std::to_string(c);
+      bytes.put(c);
+      for (const float x : places[c]) stl.put(x);
+    }
+    stl.put(std::uint16_t{0});
+    words += "endloop\nendfacet\n";
+    obj += "\n";
+    lines += "\n";
+  }
+  const string head =
+      " 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 4\nproperty list uchar uint vertex_indices\nend_header\n";
+  seed("mesh", "stl_text", "s" + words + "endsolid a\n");
+  seed("mesh", "stl", "s" + text(stl));
+  seed("mesh", "obj", "o" + obj + "f -1 -2 -3 -4\n");
+  seed("mesh", "ply_text", "p" + ("ply\nformat ascii" + head) + lines);
+  seed("mesh", "ply_little", "p" + ("ply\nformat binary_little_endian" + head) + text(bytes));
+  seed("mesh", "ply_big", "p" + ("ply\nformat binary_big_endian" + head) + text(bytes));
+}
+
 // ---- scans
 
 void nrrd() {
@@ -640,6 +687,7 @@ int main(int argc, char** argv) {
   nrrd();
   nifti();
   meta();
+  meshes();
   dicom();
   adf();
   unpacking();

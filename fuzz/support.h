@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "burr/base/result.h"
+#include "burr/io/read/mesh_readers.h"
 #include "burr/io/read/read_scan.h"
 #include "burr/io/read/readers.h"
 #include "burr/io/scan.h"

@@ -29,7 +29,7 @@ foreach(list record reading)
   list(TRANSFORM ${list} REPLACE "(.+)" "${src}/record/\\1.cpp")
 endforeach()
 list(APPEND record ${src}/sim/session_words.cpp ${src}/scenario/recipe.cpp ${src}/scenario/case_text.cpp
-  ${src}/workshop/spared.cpp ${src}/base/printable.cpp)
+  ${src}/workshop/spared.cpp ${src}/base/printable.cpp ${src}/base/plain_file.cpp ${src}/base/handle.cpp)
 file(GLOB web CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/*.cpp)
 list(FILTER web EXCLUDE REGEX "/whole_chunks_web\\.cpp$")
 
@@ -128,13 +128,14 @@ target_link_options(burr_sound PRIVATE --no-entry -sSTANDALONE_WASM=1 -sINITIAL_
 # The fourth module, burr_import, loaded only when somebody opens a scan: burr's readers without what needs libraries that Debian does
 # not have for WebAssembly (web/import/gaps), and the making of bone.
 file(GLOB readers CONFIGURE_DEPENDS ${src}/io/read/*.cpp ${src}/importing/*.cpp)
-list(FILTER readers EXCLUDE REGEX "/(png|read_adf|yaml|read_mesh|read_scan)\\.cpp$|_avx(2|512)\\.cpp$")
+list(FILTER readers EXCLUDE REGEX "/(png|read_adf|yaml|read_scan)\\.cpp$|_avx(2|512)\\.cpp$")
+list(FILTER readers EXCLUDE REGEX "/(read_mesh|read_mesh_unfenced|mesh_builder|mesh_text|polygon|ply_header|read_(stl|obj|ply))\\.cpp$")  # of tools
 file(GLOB import_api CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/import/*.cpp)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/materials/materials.toml)
 file(READ ${PROJECT_SOURCE_DIR}/materials/materials.toml BURR_MATERIALS_TEXT)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/built_in_materials.cpp.in ${CMAKE_BINARY_DIR}/built_in_materials.cpp @ONLY)
 add_executable(burr_import ${import_api} ${readers} ${src}/io/voxels.cpp ${src}/io/value_groups.cpp ${src}/base/printable.cpp
-  ${src}/base/text_file.cpp ${src}/scenario/recipe.cpp ${src}/record/bone_blob.cpp ${src}/record/grid_json.cpp
+  ${src}/base/text_file.cpp ${src}/base/plain_file.cpp ${src}/base/handle.cpp ${src}/scenario/recipe.cpp ${src}/record/bone_blob.cpp ${src}/record/grid_json.cpp
   ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/built_in_materials.cpp
   ${PROJECT_SOURCE_DIR}/web/crc32_web.cpp ${PROJECT_SOURCE_DIR}/web/packed_web.cpp)
 target_include_directories(burr_import PRIVATE ${PROJECT_SOURCE_DIR}/web ${PROJECT_SOURCE_DIR}/web/import

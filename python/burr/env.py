@@ -162,8 +162,13 @@ class Env(_Base):
         return self._observe(self.session.row), self._info(self.session.row)
 
     def step(self, action: Any) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
+        """burr.Error: an action that is not seven finite numbers; nothing moved, and the episode goes on with the next good action."""
         self._act(action)
-        self.session.step(self.ticks)
+        try:
+            self.session.step(self.ticks)
+        except BaseException:  # Ctrl-C within the step: nobody knows how far it came
+            self._over = True
+            raise
         return self._judge()
 
     def render(self) -> np.ndarray | None:
@@ -179,10 +184,23 @@ class Env(_Base):
     def _act(self, action: Any) -> None:
         if self._over:
             raise burr.Error("this episode is over; call reset()")
-        a = np.minimum(np.maximum(np.asarray(action, np.float64).reshape(7), self._low), self._high)
-        self._p = self._p + a[:3]
-        self._q = _turned(self._q, float(a[3]), float(a[4]), float(a[5]))
-        self.session.hand(self._p, self._q, float(a[6]), ticks=self.ticks)
+        p, q, pedal = self._wish(action)
+        self.session.hand(p, q, pedal, ticks=self.ticks)  # may refuse; then this episode is as before the step
+        self._p, self._q = p, q
+
+    def _wish(self, action: Any) -> tuple[np.ndarray, tuple[float, float, float, float], float]:
+        """Where the hand shall be. Changes nothing; burr.Error: the action is not seven numbers."""
+        try:
+            a = np.asarray(action, np.float64)
+        except (TypeError, ValueError):
+            a = np.empty(0)
+        if a.size != 7:
+            raise burr.Error("an action is 7 numbers: the move of the tip [m], its turn [rad], the pedal; this episode is as before the step")
+        a = a.reshape(7)
+        if not np.isfinite(a).all():
+            raise burr.Error("an action holds a number that is not finite; this episode is as before the step: step it again, or call reset()")
+        a = np.minimum(np.maximum(a, self._low), self._high)
+        return self._p + a[:3], _turned(self._q, float(a[3]), float(a[4]), float(a[5])), float(a[6])
 
     def _judge(self) -> tuple[dict[str, np.ndarray], float, bool, bool, dict[str, Any]]:
         task, row = self.task, self.session.row
@@ -242,6 +260,16 @@ class Many:
         return _stacked([one[0] for one in made]), [one[1] for one in made]
 
     def step(self, actions: Any) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray, np.ndarray, list[dict[str, Any]]]:
+        actions = list(actions)
+        if len(actions) != self.num_envs:
+            raise burr.Error(f"{len(actions)} actions were given for {self.num_envs} environments; none of them moved")
+        for number, (env, action) in enumerate(zip(self.envs, actions)):  # all are good before one of them moves
+            if not env._over:
+                try:
+                    env._wish(action)
+                except burr.Error as refused:
+                    raise burr.Error(f"environment {number}: {refused}; none of the environments moved") from None
+
         def one(pair: tuple[Env, Any]) -> Any:
             env, action = pair
             if env._over:

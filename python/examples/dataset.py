@@ -44,7 +44,7 @@ def main(out="dataset", sessions=5, seconds=3.0):
     with open(folder / "sessions.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, table[0].keys())
         writer.writeheader()
-        writer.writerows(table)
+        writer.writerows({name: burr.table_text(cell) if isinstance(cell, str) else cell for name, cell in row.items()} for row in table)
     return table
 
 

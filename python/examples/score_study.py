@@ -54,7 +54,7 @@ def main(out="study", case="block", learners=2, sessions=2, seconds=120):
     with open(folder / "marks.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, table[0].keys())
         writer.writeheader()
-        writer.writerows(table)
+        writer.writerows({name: burr.table_text(cell) if isinstance(cell, str) else cell for name, cell in row.items()} for row in table)
     marks = {level: np.array([row["mark"] for row in table if row["level"] == level]).reshape(learners, sessions) for level in LEVELS}
     found = {"auc": auc(marks["expert"].ravel(), marks["careless"].ravel()), "g": reliability(np.concatenate(list(marks.values())))}
     for level in LEVELS:

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "burr/base/table_cell.h"
 #include "burr/base/version.h"
 #include "burr/phantom/phantoms.h"
 #include "burr/scenario/case.h"
@@ -110,6 +111,9 @@ PYBIND11_MODULE(_burr, module) {
   module.def("rubrics", &scoring::built_in_rubrics, "The built-in rubrics.");
   module.def("motions", &surgeon::motion_names, "The motions of a simulated hand.");
   module.def("phantoms", &phantom::phantom_names, "The bones by formula.");
+  module.def("table_text", &base::guarded_cell, py::arg("text"),
+             "A text as a cell of a table that no spreadsheet runs as a formula; csv.writer puts "
+             "the quotes.");
   module.def("tool_names", &tool_names, py::arg("tools") = "",
              "The tools of the rack; tools: a .toml file with more.");
   module.def("row_type", &row_type, "The type of the rows of ticks.");

@@ -116,7 +116,7 @@ void save(const SceneSetup& scene, const std::string& path, bool force) {
       text_of(scene, file.has_parent_path() ? file.parent_path() : fs::path("."),
               named ? std::string() : bone.filename().string());
   if (!named) check(workshop::write_prebuilt_phantom(*scene.bone->bone, bone.string()));
-  auto written = take(base::NewFile::create(path));
+  auto written = take(base::NewFile::create(path, base::kForAll));
   written.write(text);
   check(written.put_in_place());
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -15,6 +16,11 @@ namespace burr::base {
 namespace {
 
 namespace fs = std::filesystem;
+
+int mode_of(const std::string& path) {
+  struct stat facts = {};
+  return ::stat(path.c_str(), &facts) == 0 ? static_cast<int>(facts.st_mode & 0777) : -1;
+}
 
 class NewFileTest : public testing::Test {
  protected:
@@ -99,6 +105,25 @@ TEST_F(NewFileTest, RefusesWhatIsNoPlainFileAndFollowsLinks) {
   }
   EXPECT_TRUE(fs::is_symlink(path("link")));
   EXPECT_EQ(content(path("real")), "new");
+}
+
+TEST_F(NewFileTest, WhoDoesNotSayGetsAFileForThisUserAlone) {
+  const mode_t before = ::umask(0022);
+  for (const auto& [mode, wanted] : {std::pair(kForMe, 0600), {kForAll, 0644}}) {
+    auto file = NewFile::create(path("a.txt"), mode);
+    ASSERT_TRUE(file.ok()) << file.error().text;
+    file->write("text");
+    for (const auto& one : fs::directory_iterator(folder)) {  // already while it is written
+      if (one.path().filename() == "a.txt") continue;
+      EXPECT_EQ(mode_of(one.path().string()), wanted) << one.path();
+    }
+    ASSERT_TRUE(file->put_in_place().ok());
+    EXPECT_EQ(mode_of(path("a.txt")), wanted);
+  }
+  auto file = NewFile::create(path("b.txt"));
+  ASSERT_TRUE(file.ok() && file->put_in_place().ok());
+  EXPECT_EQ(mode_of(path("b.txt")), 0600);
+  ::umask(before);
 }
 
 }  // namespace

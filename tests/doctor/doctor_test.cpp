@@ -140,6 +140,44 @@ TEST_F(DoctorNodes, SerialLinesAndRawHidBelowADeviceAreAskedForToo) {
   EXPECT_NE(std::find(asked_.begin(), asked_.end(), system_.root / "dev/hidraw3"), asked_.end());
 }
 
+// The two forms in which a Touch was sold: a serial line, and since 2023 a raw HID node.
+TEST_F(DoctorNodes, TellsTheTwoTouchesApart) {
+  const fs::path devices = system_.root / "sys/bus/usb/devices";
+  plug("1-1", "2988", "0302", 7);
+  fs::create_directories(devices / "1-1/1-1:1.0/tty/ttyACM0");
+  std::ofstream(devices / "1-1/1-1:1.0/bInterfaceClass") << "02\n";
+  plug("1-2", "abcd", "0001", 8);  // a number that nobody published, by its maker's name
+  std::ofstream(devices / "1-2/manufacturer") << "3D Systems\n";
+  fs::create_directories(devices / "1-2/1-2:1.0/0003:ABCD:0001.0004/hidraw/hidraw5");
+  std::ofstream(devices / "1-2/1-2:1.0/bInterfaceClass") << "03\n";
+  auto findings = look_at_nodes(system_);
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_EQ(findings[0].what, "3D Systems Touch HID");
+  EXPECT_EQ(findings[0].health, Health::good);
+  EXPECT_NE(findings[0].value.find("/dev/hidraw5"), std::string::npos) << findings[0].value;
+  EXPECT_NE(findings[0].todo.find("has no ttyACM"), std::string::npos) << findings[0].todo;
+  EXPECT_EQ(findings[1].what, "3D Systems Touch USB");
+  EXPECT_NE(findings[1].value.find("/dev/ttyACM0"), std::string::npos) << findings[1].value;
+  EXPECT_NE(findings[1].todo.find("out of sale"), std::string::npos) << findings[1].todo;
+  // its driver has not taken the node
+  fs::remove_all(devices / "1-2/1-2:1.0/0003:ABCD:0001.0004");
+  findings = look_at_nodes(system_);
+  EXPECT_EQ(findings[0].health, Health::trouble);
+  EXPECT_NE(findings[0].value.find("no hidraw node"), std::string::npos) << findings[0].value;
+  // nor may it be opened: burr's own rule does not name this number
+  fs::create_directories(devices / "1-2/1-2:1.0/0003:ABCD:0001.0004/hidraw/hidraw5");
+  allowed_ = false;
+  findings = look_at_nodes(system_);
+  EXPECT_NE(findings[0].todo.find("3D Systems' driver"), std::string::npos) << findings[0].todo;
+  EXPECT_NE(findings[1].todo.find("doctor --fix"), std::string::npos) << findings[1].todo;
+  // neither a serial line nor HID: it is not said which
+  fs::remove_all(devices / "1-1");
+  allowed_ = true;
+  plug("1-3", "2988", "0301", 9);
+  findings = look_at_nodes(system_);
+  EXPECT_EQ(findings[0].what, "3D Systems Touch");
+}
+
 TEST(DoctorRules, NameEveryMakerOnceForEachKindOfNode) {
   const std::string rules = udev_rules();
   for (const char* words :

@@ -55,6 +55,43 @@ class Environment(unittest.TestCase):
         observation, *_ = env.step(np.full(7, 1e3))  # held to its bounds
         np.testing.assert_allclose(observation["pose"][:3] - before, 0.5e-3, atol=1e-6)
 
+    def test_a_refused_action_changes_nothing(self):
+        env, other = burr.env.Env(self.task, **LEAST), burr.env.Env(self.task, **LEAST)
+        env.reset(seed=5)
+        other.reset(seed=5)
+        for step in range(12):
+            if step % 3 == 1:
+                for bad in (np.full(7, np.nan), [0, 0, np.inf, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0, np.nan], np.zeros(6), "down", None, [[1, 2], [3]]):
+                    with self.assertRaisesRegex(burr.Error, "this episode is as before the step"):
+                        env.step(bad)
+            mine, theirs = env.step(down(env)), other.step(down(other))
+            for name in mine[0]:
+                np.testing.assert_array_equal(mine[0][name], theirs[0][name])
+            self.assertEqual(mine[1:], theirs[1:])  # reward, ends, tick, what was removed, hash
+        self.assertGreater(mine[4]["removed_mm3"], 0)
+        while not (mine[2] or mine[3]):
+            mine = env.step(down(env))
+        with self.assertRaisesRegex(burr.Error, "this episode is over"):
+            env.step(np.full(7, np.nan))
+
+    def test_of_many_none_moves_if_one_is_refused(self):
+        many, alone = burr.env.Many(self.task, 3, **LEAST), burr.env.Many(self.task, 3, **LEAST)
+        many.reset(seed=8)
+        alone.reset(seed=8)
+        good = np.stack([down(one) for one in many.envs])
+        bad = good.copy()
+        bad[2, 0] = np.nan
+        with self.assertRaisesRegex(burr.Error, "environment 2: .*none of the environments moved"):
+            many.step(bad)
+        with self.assertRaisesRegex(burr.Error, "2 actions were given for 3"):
+            many.step(good[:2])
+        mine, theirs = many.step(good), alone.step(good)
+        for name in mine[0]:
+            np.testing.assert_array_equal(mine[0][name], theirs[0][name])
+        self.assertEqual(mine[4], theirs[4])
+        many.close()
+        alone.close()
+
     def test_a_seed_is_an_episode(self):
         def episode(env, seed):
             env.reset(seed=seed)

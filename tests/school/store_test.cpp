@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/base/table_cell.h"
 #include "burr/school/export.h"
 #include "burr/school/forget.h"
 #include "burr/school/pending.h"
@@ -460,7 +461,7 @@ TEST_P(StoreTest, GivesOutAllThatIsKnownOfOneAndNoNameOfAll) {
   EXPECT_NE(text.find("kestrel-27,"), std::string::npos);
   EXPECT_NE(text.find("0.30000000000000004"), std::string::npos);  // to the bit
   EXPECT_EQ(text.find("Lovelace"), std::string::npos);
-  EXPECT_EQ(csv_cell("a,\"b\""), "\"a,\"\"b\"\"\"");
+  EXPECT_EQ(base::table_cell("a,\"b\""), "\"a,\"\"b\"\"\"");
   EXPECT_FALSE(tables_of(store(), "nobody-1"));
 }
 

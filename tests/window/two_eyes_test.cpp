@@ -255,6 +255,7 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
             [&] {
               EXPECT_NE(worn.xr().pictures[0].rgba, worn.xr().pictures[1].rgba);
               EXPECT_EQ(removed(), 0) << "no trigger, no spindle";
+              EXPECT_EQ(worn.xr().most_vibration, 0.0F) << "no contact";
               worn.change([](FakeXr& xr) { xr.trigger = 1; });
               put_wand(work - 1e-3 * (place - work) / 10e-3);
             }},
@@ -267,6 +268,8 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
               return false;
             },
             [&] {
+              EXPECT_GT(worn.xr().most_vibration, 0) << "the controller shows the contact";
+              EXPECT_LE(worn.xr().most_vibration, static_cast<float>(render::kMostVibration));
               told = 0;
               worn.change(
                   [](FakeXr& xr) { xr.wand.position.y = std::numeric_limits<float>::quiet_NaN(); });

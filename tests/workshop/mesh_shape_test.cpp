@@ -106,9 +106,8 @@ TEST_F(MeshShapeTest, ARecordingHoldsTheMeshWhole) {
 }
 
 TEST_F(MeshShapeTest, AMistakeIsOneSentenceWithFileAndField) {
-  EXPECT_NE(
-      why().find("mine.toml: line 9: tool[1].part[1].file: punch.stl: the file cannot be read"),
-      std::string::npos)
+  EXPECT_NE(why().find("mine.toml: line 9: tool[1].part[1].file: punch.stl: cannot be opened"),
+            std::string::npos)
       << why();
   std::ofstream(folder_ / "punch.stl") << "this is a letter";
   EXPECT_NE(why().find("this is no stl mesh"), std::string::npos) << why();

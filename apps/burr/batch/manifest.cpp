@@ -12,7 +12,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "burr/base/plain_file.h"
 #include "burr/base/printable.h"
+#include "burr/base/table_cell.h"
 #include "burr/scenario/case.h"
 #include "burr/workshop/sha256.h"
 
@@ -49,7 +51,7 @@ class Reader {
       const auto read = text_[at_] == '"' ? quoted(cell) : plain(cell);
       if (!read) return read.error();
       more = *read;
-      line.cells.push_back(std::move(cell));
+      line.cells.push_back(base::text_of_cell(cell));
       if (more && at_ >= text_.size()) {  // the file ends with a comma
         line.cells.emplace_back();
         more = false;
@@ -211,6 +213,7 @@ Result<Manifest> parse_manifest(std::string_view text, const std::string& file) 
 }
 
 Result<Manifest> read_manifest(const std::string& path) {
+  if (const Status plain = base::check_plain_file(path); !plain) return plain.error();
   std::ifstream in(path, std::ios::binary);
   if (!in)
     return error(Trouble::io, fmt::format("{}: cannot be opened: {}", base::printable(path),

@@ -6,7 +6,7 @@
 
 #include "batch/canonical.h"
 #include "burr/base/new_file.h"
-#include "burr/school/export.h"
+#include "burr/base/table_cell.h"
 
 namespace burr::app {
 namespace {
@@ -70,24 +70,25 @@ std::map<std::string, json> flat(const json& result) {
 }
 
 Status write_csv(const Merged& merged, const std::string& file) {
-  auto out = base::NewFile::create(file);
+  auto out = base::NewFile::create(file, base::kForAll);
   if (!out) return out.error();
   const std::set<std::string> found = merged.found_columns();
   const std::vector<std::string>& given = merged.manifest.columns;
   std::string line = "id,code,sentence";
   for (const std::string& name : given)
-    if (name != "id") line += "," + school::csv_cell(name);
-  for (const std::string& name : found) line += "," + school::csv_cell(name);
+    if (name != "id") line += "," + base::table_cell(name);
+  for (const std::string& name : found) line += "," + base::table_cell(name);
   out->write(line + "\n");
   for (std::size_t n = 0; n < merged.rows.size(); ++n) {
     const ManifestRow& row = merged.manifest.rows[n];
     const MergedRow& one = merged.rows[n];
-    line = row.id + "," + std::to_string(one.code) + "," + school::csv_cell(one.sentence);
+    line = base::table_cell(row.id) + "," + std::to_string(one.code) + "," +
+           base::table_cell(one.sentence);
     for (std::size_t c = 0; c < given.size(); ++c)
-      if (given[c] != "id") line += "," + school::csv_cell(row.cells[c]);
+      if (given[c] != "id") line += "," + base::table_cell(row.cells[c]);
     for (const std::string& name : found) {
       const auto at = one.found.find(name);
-      line += "," + (at == one.found.end() ? "" : school::csv_cell(text_of(at->second)));
+      line += "," + (at == one.found.end() ? "" : base::table_cell(text_of(at->second)));
     }
     out->write(line + "\n");
   }

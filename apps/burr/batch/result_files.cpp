@@ -15,6 +15,7 @@
 
 #include "batch/canonical.h"
 #include "burr/base/new_file.h"
+#include "burr/base/plain_file.h"
 #include "burr/base/printable.h"
 #include "burr/base/version.h"
 #include "burr/scenario/case.h"
@@ -78,6 +79,7 @@ fs::path ResultFiles::failure(const std::string& id) const {
 }
 
 Result<std::optional<nlohmann::json>> ResultFiles::read(const fs::path& file) {
+  if (const Status plain = base::check_plain_file(file.string()); !plain) return plain.error();
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in) {
@@ -100,7 +102,7 @@ Status ResultFiles::write(const fs::path& file, const nlohmann::json& value) {
     return error(Trouble::io,
                  fmt::format("{}: the folder cannot be made: {}",
                              base::printable(file.parent_path().string()), trouble.message()));
-  auto fresh = base::NewFile::create(file.string());
+  auto fresh = base::NewFile::create(file.string(), base::kForAll);
   if (!fresh) return fresh.error();
   fresh->write(canonical(value) + "\n");
   return fresh->put_in_place();

@@ -69,10 +69,13 @@ Status run(const Options& options) {
     if (!started) return started;
   }
   fmt::print(stderr,
-             "{0} is on DDS domain {1} (ROS_DOMAIN_ID). Move it with {0}/servo_cp or move_cp [m, "
+             "{0} is on DDS domain {1} (ROS_DOMAIN_ID), for programs on {5}. Move it with "
+             "{0}/servo_cp or move_cp [m, "
              "LPS]; the spindle is {0}/spindle (Joy, axis 0). It starts at {2:.4f} {3:.4f} "
              "{4:.4f}. Ctrl-C ends it.\n",
-             named.name, (*arm)->domain(), start.p.x(), start.p.y(), start.p.z());
+             named.name, (*arm)->domain(), start.p.x(), start.p.y(), start.p.z(),
+             (*arm)->on_network() ? "every computer of this network"
+                                  : "this computer alone (--network: on others too)");
   {
     const workshop::ArmPublisher teller(session, **arm, [&hand] { return hand.busy(); });
     session.run(options.seconds > 0 ? options.seconds : kForGood, progress());
@@ -113,6 +116,8 @@ void add(CLI::App& app, Todo& todo) {
       ->add_option("--domain", options->arm.domain,
                    "DDS domain (default: ROS_DOMAIN_ID, otherwise 0)")
       ->check(CLI::Range(0, 232));
+  command->add_flag("--network", options->arm.network,
+                    "programs on other computers may drive and watch it too: DDS has no password");
   command
       ->add_option("--seconds", options->seconds,
                    "end after this many seconds (default: at Ctrl-C)")

@@ -174,7 +174,7 @@ Status run_new(const NewOptions& options) {
       new_case(*made->bone, source_for(options.volume.source, options.out), answers);
   // what is written must be a case
   if (const auto read = scenario::parse_case(written.text, options.out); !read) return read.error();
-  auto file = base::NewFile::create(options.out);
+  auto file = base::NewFile::create(options.out, base::kForAll);
   if (!file) return file.error();
   file->write(written.text);
   if (Status placed = file->put_in_place(); !placed) return placed;

@@ -158,7 +158,7 @@ Status write(const Options& options, const std::string& date,
       importing::parse_materials(text, short_name(options.out), importing::built_in_materials());
   if (!again)
     return error(fmt::format("the fitted constants are no valid material: {}", again.error().text));
-  auto file = base::NewFile::create(options.out);
+  auto file = base::NewFile::create(options.out, base::kForAll);
   if (!file) return file.error();
   file->write(text);
   return file->put_in_place();

@@ -207,7 +207,8 @@ Status draw(const Options& options, school::Store& store) {
                                           base::printable(options.pictures), trouble.message()));
   Json account = Json::array();
   for (const report::ReportArtist::Plain& one : *pictures) {
-    auto file = base::NewFile::create((fs::path(options.pictures) / (one.name + ".png")).string());
+    auto file = base::NewFile::create((fs::path(options.pictures) / (one.name + ".png")).string(),
+                                      base::kForAll);
     if (!file) return file.error();
     file->write(one.picture.png);
     if (const Status written = file->put_in_place(); !written) return written;
@@ -216,7 +217,8 @@ Status draw(const Options& options, school::Store& store) {
                        {"width", one.picture.width},
                        {"height", one.picture.height}});
   }
-  auto list_file = base::NewFile::create((fs::path(options.pictures) / "pictures.json").string());
+  auto list_file =
+      base::NewFile::create((fs::path(options.pictures) / "pictures.json").string(), base::kForAll);
   if (!list_file) return list_file.error();
   list_file->write(json_line(account));
   if (const Status written = list_file->put_in_place(); !written) return written;

@@ -45,7 +45,7 @@ Status put_file(const fs::path& from, const fs::path& to) {
   if (trouble)
     return error(Trouble::io, fmt::format("{}: cannot be made: {}", to.parent_path().string(),
                                           trouble.message()));
-  auto file = base::NewFile::create(to.string());
+  auto file = base::NewFile::create(to.string(), base::kForAll);
   if (!file) return file.error();
   file->write(bytes.data(), bytes.size());
   return file->put_in_place();

@@ -152,7 +152,7 @@ Status test(const Options& options) {
   else
     fmt::print("{}", trial_text(seen));
   if (!options.out.empty()) {
-    auto file = base::NewFile::create(options.out);
+    auto file = base::NewFile::create(options.out, base::kForAll);
     if (!file) return file.error();
     file->write(trial_page(seen));
     const Status put = file->put_in_place();

@@ -64,7 +64,7 @@ Result<std::string> write_rules(const System& system,
   if (trouble)
     return cannot(fmt::format("{}: the folder cannot be made ({})", file.parent_path().string(),
                               trouble.message()));
-  auto out = base::NewFile::create(file.string());
+  auto out = base::NewFile::create(file.string(), base::kForAll);
   if (!out) return cannot(in_options(out.error()).text);
   out->write(rules);
   const Status put = out->put_in_place();

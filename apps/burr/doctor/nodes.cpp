@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kGroup = "USB";
 
+constexpr const char* kTouchVendor = "2988";
+
 struct Known {
   const char* vendor;
   const char* product;  // "": any
@@ -27,6 +29,7 @@ constexpr Known kKnown[] = {
     {"1451", "", "Force Dimension", false},
     {"0403", "cb48", "Novint Falcon", false},
     {"16c0", "04", "Polhem, WoodenHaptics", true},
+    {kTouchVendor, "", "3D Systems Touch", false},
 };
 
 std::string line_of(const fs::path& file) {
@@ -44,6 +47,47 @@ const Known* known(const std::string& vendor, const std::string& product) {
       return &one;
   }
   return nullptr;
+}
+
+std::string in_small_letters(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+  return text;
+}
+
+// By its maker's number or, as that of the newer model is not published, by its maker's name.
+bool is_touch(const fs::path& device) {
+  if (line_of(device / "idVendor") == kTouchVendor) return true;
+  const std::string maker = in_small_letters(line_of(device / "manufacturer"));
+  return maker.find("3d systems") != std::string::npos ||
+         maker.find("geomagic") != std::string::npos || maker.find("sensable") != std::string::npos;
+}
+
+// Whether an interface of the device is of this class of USB, in hexadecimal.
+bool has_class(const fs::path& device, const std::string& wanted) {
+  std::error_code nobody_asks;
+  for (const auto& entry : fs::directory_iterator(device, nobody_asks))
+    if (line_of(entry.path() / "bInterfaceClass") == wanted) return true;
+  return false;
+}
+
+// A Touch has been sold in two forms, which look alike and need different steps (docs/use/devices/touch.md).
+void tell_which_touch(const fs::path& device, bool any_hidraw, bool any_tty, Finding& finding) {
+  constexpr const char* kHid = "03";
+  const bool hid = any_hidraw || has_class(device, kHid);
+  if (hid == any_tty) return;  // both, or neither: not to be told
+  finding.what = hid ? "3D Systems Touch HID" : "3D Systems Touch USB";
+  if (finding.health != Health::good) return;
+  if (hid && !any_hidraw) {
+    finding.health = Health::trouble;
+    finding.value = "plugged in, but the kernel made no hidraw node for it";
+    finding.todo = "unplug it and plug it in again; then: sudo modprobe usbhid";
+    return;
+  }
+  finding.todo =
+      hid ? "it has no ttyACM, so the maker's ListCOMPortHapticDevices shows nothing; take the "
+            "driver of November 2023 or later (docs/use/devices/touch.md)"
+          : "the older model, out of sale: its node is a ttyACM (docs/use/devices/touch.md)";
 }
 
 bool may_use(const System& system, const fs::path& node) {
@@ -102,15 +146,19 @@ std::vector<Finding> look_at_nodes(const System& system) {
        fs::directory_iterator(system.root / "sys/bus/usb/devices", nobody_asks)) {
     const fs::path device = entry.path();
     const Known* one = known(line_of(device / "idVendor"), line_of(device / "idProduct"));
-    if (one == nullptr) continue;
+    const bool touch = is_touch(device);
+    if (one == nullptr && !touch) continue;
     std::vector<fs::path> nodes = {system.root / "dev/bus/usb" / three(line_of(device / "busnum")) /
                                    three(line_of(device / "devnum"))};
     for (fs::path& more : nodes_below(system, device)) nodes.push_back(std::move(more));
-    Finding finding{kGroup, one->what, Health::good, "", ""};
+    Finding finding{kGroup, one != nullptr ? one->what : "3D Systems Touch", Health::good, "", ""};
     std::string closed;
+    bool any_hidraw = false, any_tty = false;
     for (const fs::path& node : nodes) {
       const std::string shown = "/" + node.lexically_relative(system.root).string();
       finding.value += (finding.value.empty() ? "" : ", ") + shown;
+      any_hidraw = any_hidraw || node.filename().string().starts_with("hidraw");
+      any_tty = any_tty || node.filename().string().starts_with("ttyACM");
       if (!may_use(system, node)) closed += (closed.empty() ? "" : ", ") + shown;
     }
     if (!closed.empty()) {
@@ -118,19 +166,21 @@ std::vector<Finding> look_at_nodes(const System& system) {
       finding.value = "plugged in, but you may not open " + closed;
       // the package of Debian brings the rule as well
       finding.todo =
-          fs::exists(udev_file(system), nobody_asks) ||
-                  fs::exists(system.root / "usr/lib/udev/rules.d/70-burr.rules", nobody_asks)
-              ? "the rule exists: unplug the device and plug it in again, at the "
-                "computer itself, not over ssh"
-              : "burr doctor --fix writes the rule that allows it";
+          one == nullptr  // its maker's number is not known, so burr's rule does not name it
+              ? "the installer of 3D Systems' driver writes a rule that allows it; run it, then "
+                "unplug the device and plug it in again"
+              : fs::exists(udev_file(system), nobody_asks) ||
+                        fs::exists(system.root / "usr/lib/udev/rules.d/70-burr.rules", nobody_asks)
+                    ? "the rule exists: unplug the device and plug it in again, at the "
+                      "computer itself, not over ssh"
+                    : "burr doctor --fix writes the rule that allows it";
     }
+    if (touch) tell_which_touch(device, any_hidraw, any_tty, finding);
     findings.push_back(std::move(finding));
   }
   if (findings.empty())
-    findings.push_back(
-        {kGroup, "haptic devices", Health::absent,
-         "no Force Dimension, Falcon or Polhem is plugged in (a Touch has a line of its own above)",
-         ""});
+    findings.push_back({kGroup, "haptic devices", Health::absent,
+                        "no Force Dimension, Falcon, Polhem or Touch is plugged in", ""});
   std::sort(findings.begin(), findings.end(),
             [](const Finding& a, const Finding& b) { return a.what < b.what; });
   return findings;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "burr/base/new_file.h"
+#include "burr/base/plain_file.h"
 #include "burr/base/version.h"
 #include "people/run.h"
 
@@ -175,6 +176,8 @@ Result<Unfinished> load_run(const std::string& folder) {
   const std::filesystem::path from(folder);
   const std::string result = (from / "result.json").string(),
                     trials = (from / "trials.csv").string();
+  for (const std::string& one : {result, trials})
+    if (const Status plain = base::check_plain_file(one); !plain) return plain.error();
   std::ifstream file(result);
   if (!file)
     return error(

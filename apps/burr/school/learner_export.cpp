@@ -77,7 +77,7 @@ void add_reports(const Options& options, const std::vector<school::SessionRow>& 
 }
 
 Status write_zip(const std::string& path, const std::vector<school::TextFile>& files) {
-  auto file = base::NewFile::create(path, 0600);  // it may hold a name
+  auto file = base::NewFile::create(path);  // it may hold a name
   if (!file) return file.error();
   io::Zip zip(*file);
   for (const school::TextFile& one : files)

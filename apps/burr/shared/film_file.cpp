@@ -101,6 +101,9 @@ Result<std::unique_ptr<FilmFile::Encoder>> FilmFile::Encoder::start(const fs::pa
   made->path_ = path;
   made->unfinished_ = path.parent_path() / fmt::format(".{}.{}.part", path.filename().string(),
                                                        static_cast<long>(::getpid()));
+  // made here, and not by ffmpeg, for this user alone: a film shows how somebody worked
+  const int made_first = ::open(made->unfinished_.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  if (made_first >= 0) ::close(made_first);
   // a socket, because writing to a pipe whose reader is gone raises SIGPIPE; ffmpeg's messages go
   // into memory
   int ends[2];

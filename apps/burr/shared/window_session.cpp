@@ -1,6 +1,9 @@
 #include "shared/window_session.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "burr/math/rotation.h"
@@ -110,6 +113,12 @@ Result<WindowSession> make_window_session(const WorkOptions& options,
   if (!options.told_as.empty()) {
     auto arm = device::crtk::Arm::open({.name = options.told_as, .middle = above.p});
     if (!arm) return arm.error();
+    fmt::print(stderr, "{} is on DDS domain {}, for programs on {}.\n", options.told_as,
+               (*arm)->domain(),
+               (*arm)->on_network()
+                   ? "every computer of this network"
+                   : "this computer alone (ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET: on others "
+                     "too)");
     ready.arm = std::move(*arm);
     ready.teller = std::make_unique<workshop::ArmPublisher>(*ready.session, *ready.arm);
   }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "burr/base/new_file.h"
+#include "burr/base/table_cell.h"
 #include "shared/json_line.h"
 
 namespace burr::app {
@@ -19,14 +20,20 @@ constexpr std::size_t kMostInPage = 80;
 std::string number(double value) { return fmt::format("{:.4g}", value); }
 
 Status write_file(const std::string& path, const std::string& text) {
-  auto file = base::NewFile::create(path);
+  auto file = base::NewFile::create(path, base::kForAll);
   if (!file) return file.error();
   file->write(text);
   return file->put_in_place();
 }
 
+std::vector<std::string> cells_of(const std::vector<std::string>& texts) {
+  std::vector<std::string> cells;
+  for (const std::string& text : texts) cells.push_back(base::table_cell(text));
+  return cells;
+}
+
 std::string csv(const Series& series) {
-  std::string text = fmt::format("{}\n", fmt::join(series.columns, ","));
+  std::string text = fmt::format("{}\n", fmt::join(cells_of(series.columns), ","));
   for (const std::vector<double>& row : series.rows)
     text += fmt::format("{:.9g}\n", fmt::join(row, ","));
   return text;
@@ -34,10 +41,12 @@ std::string csv(const Series& series) {
 
 // The curves of a pair of axes, one row per point.
 std::string csv(const Axes& axes) {
-  std::string text = fmt::format("line,{},{}\n", axes.x, axes.y);
+  std::string text =
+      fmt::format("line,{},{}\n", base::table_cell(axes.x), base::table_cell(axes.y));
   for (const Line& line : axes.lines)
     for (std::size_t n = 0; n < std::min(line.x.size(), line.y.size()); ++n)
-      text += fmt::format("{},{:.9g},{:.9g}\n", line.legend, line.x[n], line.y[n]);
+      text +=
+          fmt::format("{},{:.9g},{:.9g}\n", base::table_cell(line.legend), line.x[n], line.y[n]);
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "burr/base/inputs.h"
+#include "burr/base/plain_file.h"
 
 namespace burr::base {
 namespace {
@@ -55,11 +56,9 @@ Result<NewFile> NewFile::create(const std::string& path, unsigned mode) {
   std::filesystem::path place = path;
   if (std::filesystem::is_symlink(place, ignored))
     place = std::filesystem::weakly_canonical(place, ignored);
-  const auto status = std::filesystem::status(place, ignored);
   if (path.empty())
     return error(Trouble::io, "the name of the file to write is empty; give a name");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    return error(Trouble::io, path + ": is not a regular file; give the name of a file");
+  if (const Status plain = check_plain_file(place.string(), path); !plain) return plain.error();
   if (const Status allowed = check_not_input(place.string()); !allowed) return allowed.error();
 
   // a name that no one else uses: a crashed run may have left a file with our process number

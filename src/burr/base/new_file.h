@@ -21,10 +21,15 @@
 
 namespace burr::base {
 
+// Who may read a new file. What holds people (sessions, marks, names, a patient's bone that nobody asked to
+// export) is for this user alone, which is also what a writer gets that does not say. A bone, a picture or a
+// table without people that somebody exports follows the umask, as files of other programs do.
+inline constexpr unsigned kForMe = 0600, kForAll = 0666;
+
 class NewFile {
  public:
-  // Opens an empty file in the folder of `path`. mode: who may read it, 0600 for the user alone.
-  [[nodiscard]] static Result<NewFile> create(const std::string& path, unsigned mode = 0666);
+  // Opens an empty file in the folder of `path`.
+  [[nodiscard]] static Result<NewFile> create(const std::string& path, unsigned mode = kForMe);
 
   NewFile(NewFile&& other) noexcept;
   NewFile& operator=(NewFile&&) = delete;

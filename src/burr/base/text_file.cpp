@@ -1,4 +1,5 @@
 #include "burr/base/text_file.h"
+#include "burr/base/plain_file.h"
 
 #include <fmt/core.h>
 
@@ -11,6 +12,7 @@ namespace burr::base {
 Result<std::string> text_of_file(const std::string& path, std::uintmax_t most,
                                  std::string_view for_what) {
   const std::string file = std::filesystem::path(path).filename().string();
+  if (const Status plain = check_plain_file(path, file); !plain) return plain.error();
   std::error_code trouble;
   const auto size = std::filesystem::file_size(path, trouble);
   if (trouble)

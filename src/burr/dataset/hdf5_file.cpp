@@ -1,5 +1,6 @@
 #include "burr/dataset/hdf5_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <unistd.h>
@@ -147,6 +148,9 @@ Hdf5File::Hdf5File(std::string path) : path_(std::move(path)) {
   links_ = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(links_, 1);
   H5Pset_char_encoding(links_, H5T_CSET_UTF8);
+  // made here, and not by the library, for this user alone: it holds how somebody worked
+  const int made_first = ::open(beside_.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  if (made_first >= 0) ::close(made_first);
   file_ = H5Fcreate(beside_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get());
   if (file_ < 0) wrong("cannot be created; is the folder there, and may you write in it?");
 }

@@ -108,7 +108,7 @@ constexpr std::int64_t kDay = 86'400'000;  // [ms]
 Status keep(const fs::path& folder, const Post& post, const Json& statements) {
   std::error_code trouble;
   fs::create_directories(folder, trouble);
-  auto file = base::NewFile::create((folder / (school::uuid_at_random() + ".json")).string(), 0600);
+  auto file = base::NewFile::create((folder / (school::uuid_at_random() + ".json")).string());
   if (!file) return file.error();
   file->write(Json{{"endpoint", post.endpoint},
                    {"token", post.token},

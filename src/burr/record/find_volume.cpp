@@ -14,6 +14,7 @@
 #include <set>
 
 #include "burr/base/hash.h"
+#include "burr/base/plain_file.h"
 #include "burr/record/mcap/mcap_bytes.h"
 #include "burr/record/scan_list.h"
 
@@ -48,7 +49,8 @@ bool written_by_us(const fs::path& path) {
 bool hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
 Result<std::uint64_t> fingerprint_of_file(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (const Status plain = base::check_plain_file(path); !plain) return plain.error();
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   struct stat about {};
   if (file < 0 || ::fstat(file, &about) != 0) {
     const int code = errno;

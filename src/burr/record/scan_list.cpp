@@ -63,7 +63,7 @@ std::vector<RememberedScan> read_list(const std::string& list) {
 }
 
 Status write_list(const std::string& list, const std::vector<RememberedScan>& scans) {
-  auto file = base::NewFile::create(list, 0600);
+  auto file = base::NewFile::create(list);
   if (!file) return file.error();
   file->write(
       "# Scans that recordings were made from, the newest first: fingerprint, content, path.\n"

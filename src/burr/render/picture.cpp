@@ -48,7 +48,7 @@ Result<std::string> png_of(const Image& image) {
 Status write_png(const Image& image, const std::filesystem::path& path) {
   const auto bytes = png_of(image);
   if (!bytes) return bytes.error();
-  Result<base::NewFile> file = base::NewFile::create(path.string());
+  Result<base::NewFile> file = base::NewFile::create(path.string(), base::kForAll);
   if (!file) return file.error();
   file->write(*bytes);
   return file->put_in_place();

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "burr/base/printable.h"
+#include "burr/base/table_cell.h"
 #include "burr/school/forget.h"
 #include "burr/school/pending.h"
 
@@ -114,7 +115,7 @@ std::string csv_of(const char* columns, const std::vector<Row>& rows) {
   std::string out = std::string(columns) + "\r\n";
   for (const Row& row : rows)
     for (std::size_t n = 0; n < row.size(); ++n)
-      out += csv_cell(written(row[n])) + (n + 1 < row.size() ? "," : "\r\n");
+      out += base::table_cell(written(row[n])) + (n + 1 < row.size() ? "," : "\r\n");
   return out;
 }
 
@@ -165,16 +166,6 @@ Status add_what_waits(Store& store, const std::string& learner, std::vector<Text
 }
 
 }  // namespace
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + "\"";
-}
 
 Result<std::vector<TextFile>> all_tables(Store& store) {
   std::vector<TextFile> files;

@@ -25,6 +25,4 @@ struct TextFile {
 // One CSV a table that has rows, and learner.json with the same. Error: no such learner.
 [[nodiscard]] Result<std::vector<TextFile>> tables_of(Store& store, const std::string& learner);
 
-[[nodiscard]] std::string csv_cell(const std::string& text);
-
 }  // namespace burr::school

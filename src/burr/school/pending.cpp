@@ -27,7 +27,7 @@ Status write(const StorePlace& place, const std::string& name, Json content) {
   std::error_code trouble;
   fs::create_directories(place.pending, trouble);
   content["store"] = shown(place.address);
-  auto file = base::NewFile::create((place.pending / name).string(), 0600);
+  auto file = base::NewFile::create((place.pending / name).string());
   if (!file) return file.error();
   file->write(content.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   return file->put_in_place();

@@ -10,6 +10,7 @@
 #include <optional>
 #include <system_error>
 
+#include "burr/base/plain_file.h"
 #include "burr/school/database.h"
 
 namespace burr::school {
@@ -60,6 +61,7 @@ class Sqlite final : public Database {
 
   Status open(const std::string& names, int wait_ms) {
     for (const std::string& one : {file_, names}) {
+      if (const Status plain = base::check_plain_file(one); !plain) return plain.error();
       // for this user alone; SQLite gives the same rights to the files that it puts beside
       const int made = ::open(one.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
       if (made >= 0) ::close(made);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "burr/base/table_cell.h"
 #include "burr/school/export.h"
 
 namespace burr::school {
@@ -124,7 +125,8 @@ Result<study::Table> ratings_table(Store& store, const std::string& rubric_hash)
 std::string csv_of(const study::Table& table) {
   std::string out;
   const auto line = [&](const std::vector<std::string>& cells) {
-    for (std::size_t n = 0; n < cells.size(); ++n) out += (n == 0 ? "" : ",") + csv_cell(cells[n]);
+    for (std::size_t n = 0; n < cells.size(); ++n)
+      out += (n == 0 ? "" : ",") + base::table_cell(cells[n]);
     out += "\r\n";
   };
   line(table.columns);

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "burr/base/plain_file.h"
 #include "burr/base/printable.h"
 
 namespace burr::school {
@@ -59,6 +60,7 @@ std::string sha1(std::string_view bytes) {
 }
 
 Result<std::string> sha1_of_file(const std::string& path) {
+  if (const Status plain = base::check_plain_file(path); !plain) return plain.error();
   std::ifstream file(path, std::ios::binary);
   if (!file) return error(Trouble::io, base::printable(path) + ": cannot be read");
   Sha1 sha;

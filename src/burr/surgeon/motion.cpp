@@ -9,6 +9,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "burr/base/plain_file.h"
 #include "burr/base/printable.h"
 #include "burr/math/elementary.h"
 #include "burr/math/rotation.h"
@@ -183,12 +184,9 @@ Result<HandPath> motion(std::string_view name, const WorkPlace& place, double bu
 }
 
 Result<HandPath> read_path(const std::string& file) {
-  std::error_code ignored;
-  const auto kind = std::filesystem::status(file, ignored).type();
+  if (const Status plain = base::check_plain_file(file); !plain) return plain.error();
   std::ifstream in(file);
-  if (!in ||
-      (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::fifo))
-    return error(Trouble::io, fmt::format("{}: cannot be read; check the name", file));
+  if (!in) return error(Trouble::io, fmt::format("{}: cannot be read; check the name", file));
   std::string line;
   if (!std::getline(in, line))
     return error(fmt::format("{}: is empty; the first line must be t,x,y,z", file));

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "burr/base/places.h"
+#include "burr/base/plain_file.h"
 #include "burr/base/printable.h"
 #include "burr/workshop/sha256.h"
 
@@ -27,6 +28,8 @@ constexpr const char* kFirstLine = "burr law pass 1";
 
 Result<std::string> bytes_of(const std::string& path, std::size_t most, const char* option) {
   std::error_code nobody_asks;
+  if (const Status plain = base::check_plain_file(path, fmt::format("{} {}", option, path)); !plain)
+    return plain.error();
   if (!std::filesystem::is_regular_file(path, nobody_asks))
     return error(Trouble::io, fmt::format("{} {}: there is no such file", option, path));
   const auto size = std::filesystem::file_size(path, nobody_asks);

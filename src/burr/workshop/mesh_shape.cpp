@@ -17,7 +17,8 @@ Result<scenario::MeshShape> mesh_shape(const scenario::MeshWish& wish) {
   const std::string name = base::printable(std::filesystem::path(wish.path).filename().string());
   tool::Triangles mesh;
   mesh.faces = read->faces;
-  for (const math::Vec3& p : read->points) mesh.points.emplace_back(wish.m_per_unit * p);
+  for (const auto& [x, y, z] : read->points)
+    mesh.points.emplace_back(wish.m_per_unit * math::Vec3(x, y, z));
   const auto grid = tool::grid_of(mesh, wish.cell_m, wish.turns);
   if (!grid) return error(fmt::format("{}: the mesh {}", name, grid.error().text));
   const double whole = std::abs(tool::volume_inside(mesh));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "burr/base/inputs.h"
+#include "burr/base/plain_file.h"
 #include "burr/importing/materials.h"
 #include "burr/phantom/phantoms.h"
 #include "burr/record/bone_blob.h"
@@ -77,6 +78,7 @@ Result<importing::Imported> open_whole(const scenario::BoneRecipe& recipe) {
   if (!(recipe == usual))
     return error(Trouble::usage,
                  "a .bone file holds a bone as it is: only `reserve_bricks` applies to it");
+  if (const Status plain = base::check_plain_file(recipe.source); !plain) return plain.error();
   std::ifstream in(recipe.source, std::ios::binary);
   const std::string name = std::filesystem::path(recipe.source).filename().string();
   if (!in) return error(fmt::format("{}: cannot read this file; check its name", name));

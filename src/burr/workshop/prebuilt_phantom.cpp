@@ -49,7 +49,7 @@ std::unique_ptr<volume::Bone> prebuilt_phantom(const std::string& phantom,
 }
 
 Status write_prebuilt_phantom(const volume::Bone& bone, const std::string& path) {
-  Result<base::NewFile> file = base::NewFile::create(path);
+  Result<base::NewFile> file = base::NewFile::create(path, base::kForAll);
   if (!file) return file.error();
   const std::vector<std::uint8_t> bytes = record::bone_to_blob(bone);
   file->write(bytes.data(), bytes.size());

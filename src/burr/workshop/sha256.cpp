@@ -8,6 +8,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "burr/base/plain_file.h"
+
 namespace burr::workshop {
 
 std::string sha256(std::string_view bytes) {
@@ -21,6 +23,7 @@ std::string sha256(std::string_view bytes) {
 }
 
 Result<std::string> sha256_of_file(const std::string& path) {
+  if (const Status plain = base::check_plain_file(path); !plain) return plain.error();
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) return error(Trouble::io, fmt::format("{}: it cannot be read", path));

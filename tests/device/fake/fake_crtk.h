@@ -22,13 +22,6 @@ namespace burr::test {
 
 // A bus domain that is limited to this computer and that no other test uses.
 inline int quiet_domain() {
-  ::setenv("CYCLONEDDS_URI",
-           "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-           "<AllowMulticast>false</AllowMulticast></General><Discovery>"
-           "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30"
-           "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
-           "</Discovery></Domain></CycloneDDS>",
-           1);
   static const int domain = [] {  // its socket name is free on this computer
     for (int n = 0; n < 200; ++n) {
       const int wanted = 20 + static_cast<int>((::getpid() + n) % 200);

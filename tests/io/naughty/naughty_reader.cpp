@@ -167,7 +167,36 @@ Result<Scan> misbehave(const std::filesystem::path& path, const ReadOptions& /*o
   return scan;
 }
 
+Result<TriangleMesh> misbehave_with_mesh(const std::filesystem::path& path) {
+  auto bytes = first_bytes(path, 4096);
+  if (!bytes) return bytes.error();
+  const std::vector<std::string> todo = words(std::string(bytes->begin(), bytes->end()));
+  const std::string what = todo.empty() ? "" : todo[0];
+  if (what == "crash") std::abort();
+  if (what == "loop")
+    for (std::atomic<long> n = 0; n >= 0; n = n & 1023) ++n;
+  if (what == "eat") {
+    std::vector<std::vector<char>> all;
+    while (true) all.emplace_back(std::size_t{32} << 20, 'x');
+  }
+  if (what == "open") {
+    auto text = first_bytes(todo.at(1), 64);
+    return text ? answer("it worked") : answer("refused: " + text.error().text);
+  }
+  if (what == "lie_loan") {
+    raw_message(FenceMessage::mesh, 7, 3, sizeof(FenceMessage));
+    ::_exit(0);
+  }
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  if (what == "lie_corner") mesh.faces[0][2] = 3;
+  if (what == "lie_nan") mesh.points[1][1] = NAN;
+  if (what == "lie_none") mesh.faces.clear();
+  return mesh;
+}
+
 }  // namespace
 }  // namespace burr::io
 
-int main() { return burr::io::answer_one_request(burr::io::misbehave); }
+int main() {
+  return burr::io::answer_one_request(burr::io::misbehave, burr::io::misbehave_with_mesh);
+}

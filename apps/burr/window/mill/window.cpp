@@ -197,6 +197,7 @@ Status Mill::show(workshop::LiveSurface& live) {
     shown = desk_.show(scene_, says ? [this] { panels(); } : std::function<void()>());
   }
   station_.talk();
+  parts_.headset.feel(over_.page() || parts_.hand.stopped() ? 0 : row_.contact.force.norm());
   parts_.headset.end(scene_);
   live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
              desk_.renderer().figures().redrawn);

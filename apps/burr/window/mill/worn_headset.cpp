@@ -67,6 +67,12 @@ void WornHeadset::end(const render::Scene& scene) {
   if (seen_ && desk_.headset != nullptr) desk_.headset->end(scene, cameras_);
 }
 
+void WornHeadset::feel(double force) {
+  if (desk_.headset == nullptr) return;
+  const bool felt = wand_ && wand_at_.tracked;
+  desk_.headset->vibrate(felt ? render::vibration_of(force) : 0);
+}
+
 std::optional<mouse::MouseHand::Aim> WornHeadset::aim(const render::Camera& camera,
                                                       bool rests) const {
   if (!seen_) return std::nullopt;

@@ -25,6 +25,8 @@ class WornHeadset {
   // none.
   [[nodiscard]] std::string begin(render::FrameGovernor& governor, const render::Camera& camera);
   void end(const render::Scene& scene);
+  // The contact force on the tool [N], which the controller shows by vibrating while it is the hand.
+  void feel(double force);
   void take_off();
 
   [[nodiscard]] bool shows() const { return seen_.has_value(); }

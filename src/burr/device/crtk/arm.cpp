@@ -157,7 +157,7 @@ Result<std::unique_ptr<Arm>> Arm::open(const ArmSettings& settings) {
         Trouble::usage,
         fmt::format("{}: is not a valid name of an arm; write it as in ROS, for example /burr",
                     settings.name));
-  auto bus = Bus::open(settings.domain);
+  auto bus = Bus::open(settings.domain, settings.network);
   if (!bus) return bus.error();
   for (const auto until = steady_clock::now() + kHeard; steady_clock::now() < until;
        std::this_thread::sleep_for(milliseconds(10)))
@@ -196,6 +196,7 @@ void Arm::publish(const ArmReport& report) {
 
 bool Arm::take(ArmGoal& newest) BURR_RT { return connection_->goals.take(newest); }
 int Arm::domain() const { return connection_->bus->domain(); }
+bool Arm::on_network() const { return connection_->bus->reach() == Reach::network; }
 std::uint64_t Arm::ignored_goals() const { return connection_->ignored_goals; }
 
 // ---- the hand

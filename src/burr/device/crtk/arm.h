@@ -33,6 +33,7 @@ namespace burr::device::crtk {
 struct ArmSettings {
   std::string name = "/burr";
   int domain = -1;                         // DDS domain; below 0: ROS_DOMAIN_ID, else 0
+  bool network = false;                    // programs on other computers may drive and watch it
   math::Vec3 middle = math::Vec3::Zero();  // goals more than a metre from here are ignored
 };
 
@@ -69,6 +70,8 @@ class Arm {
   // False: there is nothing new.
   [[nodiscard]] bool take(ArmGoal& newest) BURR_RT;
   [[nodiscard]] int domain() const;
+  // True: other computers can reach it, because settings or environment ask for it (reach.h).
+  [[nodiscard]] bool on_network() const;
   // Number of goals ignored so far. Thread: any.
   [[nodiscard]] std::uint64_t ignored_goals() const;
 

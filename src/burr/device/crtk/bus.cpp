@@ -81,11 +81,12 @@ const dds_topic_descriptor_t& described<StringStamped>() {
   return crtk_msgs_msg_dds__StringStamped__desc;
 }
 
-Bus::Bus(dds_entity_t participant, int domain) : participant_(participant), domain_(domain) {}
+Bus::Bus(std::shared_ptr<Domain> share, dds_entity_t participant, int domain)
+    : share_(std::move(share)), participant_(participant), domain_(domain) {}
 
 Bus::~Bus() { dds_delete(participant_); }
 
-Result<std::unique_ptr<Bus>> Bus::open(int domain) {
+Result<std::unique_ptr<Bus>> Bus::open(int domain, bool network) {
   const char* given = std::getenv("ROS_DOMAIN_ID");
   if (domain < 0 && given != nullptr && *given != '\0') {
     const std::string_view text(given);
@@ -96,13 +97,17 @@ Result<std::unique_ptr<Bus>> Bus::open(int domain) {
                                                text, kMostDomains));
   }
   domain = std::max(domain, 0);
+  auto share = Domain::join(domain, reach_asked(network));
+  if (!share) return share.error();
   const dds_entity_t participant =
       dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr);
   if (participant < 0)
     return error(Trouble::io, fmt::format("DDS cannot be opened on domain {} ({}); check that a "
                                           "network interface is up, and check CYCLONEDDS_URI",
                                           domain, dds_strretcode(participant)));
-  return std::unique_ptr<Bus>(new Bus(participant, domain));
+  std::unique_ptr<Bus> bus(new Bus(std::move(*share), participant, domain));
+  if (const Status kept = bus->share_->keep_others_out(); !kept) return kept.error();
+  return bus;
 }
 
 void Bus::update_writers() {

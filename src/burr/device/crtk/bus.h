@@ -22,6 +22,7 @@
 
 #include <crtk_messages.h>
 #include "burr/base/result.h"
+#include "burr/device/crtk/reach.h"
 #include "burr/math/pose.h"
 
 namespace burr::device::crtk {
@@ -47,14 +48,16 @@ struct Topic {
 
 class Bus {
  public:
-  // domain: 0..232; below 0: ROS_DOMAIN_ID, else 0. Error: why the bus cannot be opened.
-  [[nodiscard]] static Result<std::unique_ptr<Bus>> open(int domain);
+  // domain: 0..232; below 0: ROS_DOMAIN_ID, else 0. network: other computers may reach it, as they may where the
+  // environment asks for it (reach.h). Error: why the bus cannot be opened.
+  [[nodiscard]] static Result<std::unique_ptr<Bus>> open(int domain, bool network = false);
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
   [[nodiscard]] dds_entity_t participant() const { return participant_; }
   [[nodiscard]] int domain() const { return domain_; }
+  [[nodiscard]] Reach reach() const { return share_->reach(); }
   // The ROS topics that somebody writes, as far as discovered by now; sorted.
   [[nodiscard]] std::vector<Topic> written();
   // Number of other writers of a topic, as far as discovered by now. guardians: count burr's own
@@ -62,7 +65,7 @@ class Bus {
   [[nodiscard]] int others_writing(std::string_view topic, bool guardians);
 
  private:
-  Bus(dds_entity_t participant, int domain);
+  Bus(std::shared_ptr<Domain> share, dds_entity_t participant, int domain);
 
   struct WriterInfo {
     std::string key;  // of the writer
@@ -71,6 +74,7 @@ class Bus {
   };
   void update_writers();
 
+  std::shared_ptr<Domain> share_;
   dds_entity_t participant_, publications_ = 0;
   int domain_;
   std::vector<WriterInfo> writers_;

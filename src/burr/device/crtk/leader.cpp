@@ -239,11 +239,16 @@ Result<std::string> choose(Bus& bus, const std::string& given) {
         fmt::format(
             "{} is not a PoseStamped, which CRTK has required since 2022; update the arm's node",
             old));
-  const std::string where = fmt::format("on DDS domain {}", bus.domain());
+  const bool alone = bus.reach() == Reach::this_computer;
+  const std::string where =
+      fmt::format("on DDS domain {}{}", bus.domain(), alone ? " of this computer" : "");
   if (arms.empty())
     return error(Trouble::io, fmt::format("no CRTK arm{}{} was found {}; start its node, and check "
-                                          "that ROS_DOMAIN_ID is the same for both",
-                                          wanted.empty() ? "" : " ", wanted, where));
+                                          "that ROS_DOMAIN_ID is the same for both{}",
+                                          wanted.empty() ? "" : " ", wanted, where,
+                                          alone ? "; for an arm on another computer, set "
+                                                  "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET"
+                                                : ""));
   return error(
       Trouble::io,
       wanted.empty()

@@ -31,8 +31,9 @@ namespace burr::device::crtk {
 inline constexpr const char* kArmName = "CRTK arm";  // in DeviceSpec
 
 struct LeaderSettings {
-  std::string arm = {};       // its namespace, /MTMR; empty: the only arm on the bus
-  int domain = -1;            // DDS domain; below 0: ROS_DOMAIN_ID, else 0
+  std::string arm = {};  // its namespace, /MTMR; empty: the only arm on the bus
+  int domain = -1;       // DDS domain; below 0: ROS_DOMAIN_ID, else 0
+                         // (of this computer alone, unless the environment asks for more: reach.h)
   bool home_allowed = false;  // the arm may be enabled and may home itself: it moves
   // The largest torque that the arm of this name takes [N m]; 0: none. CRTK does not tell, so the user
   // says it. nullptr: none takes any. Called in connect().

@@ -13,6 +13,7 @@
 
 #include "burr/device/haply/events.h"
 #include "burr/device/haply/message.h"
+#include "burr/device/haply/pipeline.h"
 #include "burr/device/silence.h"
 #include "burr/net/web_socket.h"
 #include "burr/rt/clock.h"
@@ -36,6 +37,8 @@ constexpr double kFarthest = 1;                // no arm is longer [m]
 constexpr int kPorts[] = {10001, 10000};
 constexpr int kEventsPort = 10020;
 constexpr int kOldest = 301;            // oldest version of the service, as in read_version()
+constexpr int kConfigures = 305;        // ... that takes a configuration with the first message
+constexpr int kTellings = 3;            // of its configuration
 constexpr milliseconds kLetGo(1000);    // for a session that is just ending: it may be our own
                                         // earlier one
 constexpr milliseconds kLookAgain(20);  // ... between two looks
@@ -75,6 +78,9 @@ Result<int> port_from_environment(const char* name) {
 // The user sets this if a service reports its arms as used although no program uses them.
 bool may_be_shared() { return from_environment("BURR_HAPLY_SHARED", "") == "1"; }
 
+// The user sets this if an arm as it is sold should ever tell of a mount or a filter that burr does not know.
+bool may_be_turned() { return from_environment("BURR_HAPLY_AS_IT_IS", "") == "1"; }
+
 // Rotation from the service's frame to ours: a quarter turn about x.
 const Quat& turn() {
   static const Quat one(Eigen::AngleAxisd(-M_PI / 2, Vec3::UnitX()));
@@ -94,7 +100,8 @@ struct Inverse::Connection {
 
   State state;
   Found found;
-  std::string id;  // with quotes, as JSON
+  Pipeline pipeline;  // what the service does to places and forces
+  std::string id;     // with quotes, as JSON
   std::string wanted_grip;
   int version = 0;  // of the service, as read_version()
   const char* key = "vector";
@@ -239,13 +246,28 @@ Status Inverse::find_force_key() {
   connection_->version = version_of(host_, port_);
   const char* likely = key_of_force(connection_->version);
   const char* other = likely == key_of_force(305) ? key_of_force(301) : key_of_force(305);
-  if (!connection_->send(greeting(connection_->id, likely)) || !connection_->hears())
-    return silent();
+  // a service may tell its configuration as it was before the message that changed it
+  const bool configures = connection_->version >= kConfigures;
+  for (int n = 0; n < kTellings; ++n) {
+    if (!connection_->send(greeting(connection_->id, likely, configures)) || !connection_->hears())
+      return silent();
+    const bool told =
+        read_pipeline(connection_->line.text(), connection_->found.id, connection_->pipeline);
+    if (!told || in_the_way(connection_->pipeline).empty()) break;
+  }
+  const std::string what = in_the_way(connection_->pipeline);
+  if (!what.empty() && !may_be_turned())
+    return error(Trouble::io,
+                 fmt::format("Haply's Inverse Service {} between burr and {}, and does not stop "
+                             "when asked; reset it in Haply's window, or restart the service "
+                             "(docs/use/devices/haply.md)",
+                             what, name_));
   if (!connection_->obeys(likely) && !connection_->obeys(other))
     connection_->key = likely;  // an arm at rest reports nothing back
   if (!connection_->exchange(Vec3::Zero())) return silent();
   // so that the first read() has an answer to take
-  if (!connection_->send(greeting(connection_->id, connection_->key))) return silent();
+  write_force(connection_->id, connection_->key, Vec3::Zero(), connection_->out);
+  if (!connection_->send(connection_->out)) return silent();
   return fine();
 }
 
@@ -299,6 +321,8 @@ Result<DeviceSpec> Inverse::connect() {
                                     connection_->version % 100)
                       : "Inverse Service";
   if (!arm.firmware.empty()) spec.software += ", firmware " + arm.firmware;
+  if (connection_->pipeline.force_gate)
+    spec.software += fmt::format(", force gate {:g}", *connection_->pipeline.force_gate);
   return spec;
 }
 

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "burr/device/haply/pipeline.h"
+
 namespace burr::device::haply {
 namespace {
 
@@ -254,11 +256,12 @@ void write_force(const std::string& json_id, const char* key, const Vec3& force,
                  json_id, key, force.x(), force.y(), force.z());
 }
 
-std::string greeting(const std::string& json_id, const char* key) {
-  return fmt::format(R"({{"session":{{"configure":{{"profile":{{"name":"org.burr:milling"}}}},)"
-                     R"("force_render_full_state":{{}}}},"inverse3":[{{"device_id":{},"commands":)"
-                     R"({{"set_cursor_force":{{"{}":{{"x":0,"y":0,"z":0}}}}}}}}]}})",
-                     json_id, key);
+std::string greeting(const std::string& json_id, const char* key, bool configure) {
+  return fmt::format(
+      R"({{"session":{{"configure":{{"profile":{{"name":"org.burr:milling"}}{}}},"force_render_full_state":{{}}}},)"
+      R"("inverse3":[{{"device_id":{},{}"commands":{{"set_cursor_force":{{"{}":{{"x":0,"y":0,"z":0}}}}}}}}]}})",
+      configure ? "," + ask_of_session() : "", json_id,
+      configure ? fmt::format(R"("configure":{{{}}},)", ask_of_arm()) : "", key);
 }
 
 }  // namespace burr::device::haply

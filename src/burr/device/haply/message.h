@@ -84,7 +84,8 @@ struct Event {
 // memory.
 void write_force(const std::string& json_id, const char* key, const math::Vec3& force,
                  std::string& text);
-// The first message of a session: it names this program and requests no force.
-[[nodiscard]] std::string greeting(const std::string& json_id, const char* key);
+// The first message of a session: it names this program, asks that nothing stands between it and the arm (pipeline.h;
+// a service before 3.5 does not know that), and requests no force. The answer tells the configuration.
+[[nodiscard]] std::string greeting(const std::string& json_id, const char* key, bool configure);
 
 }  // namespace burr::device::haply

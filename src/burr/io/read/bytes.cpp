@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "burr/base/plain_file.h"
 #include "burr/base/printable.h"
 
 namespace burr::io {
@@ -233,14 +234,16 @@ Result<OpenFile> open_file(const std::filesystem::path& path, std::uint64_t offs
     return refused(fmt::format("cannot be opened: {}", std::strerror(errno)).c_str());
   if (S_ISLNK(facts.st_mode))
     return refused("cannot be opened: it is a link, and burr does not follow links in this place");
-  if (!S_ISREG(facts.st_mode)) return refused("is not a regular file");
+  if (const std::string wrong = base::no_plain_file(facts.st_mode); !wrong.empty())
+    return refused(wrong.c_str());
   // O_NONBLOCK: if it has become a pipe since, opening must not wait for a writer
   const int handle = ::open(
       path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (follow_links ? 0 : O_NOFOLLOW));
   if (handle < 0) return refused(fmt::format("cannot be opened: {}", std::strerror(errno)).c_str());
   auto source = std::make_unique<FileSource>(handle);
-  if (::fstat(handle, &facts) != 0 || !S_ISREG(facts.st_mode))
-    return refused("is not a regular file");
+  if (::fstat(handle, &facts) != 0) return refused("cannot be read");
+  if (const std::string wrong = base::no_plain_file(facts.st_mode); !wrong.empty())
+    return refused(wrong.c_str());
   if (offset > 0 && ::lseek(handle, static_cast<off_t>(offset), SEEK_SET) < 0)
     return error(Trouble::io,
                  fmt::format("{}: cannot be read: {}", short_name(path), std::strerror(errno)));

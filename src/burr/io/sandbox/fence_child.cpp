@@ -15,6 +15,7 @@
 #include <cstring>
 #include <mutex>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -150,9 +151,68 @@ FenceOutcome read_all(FencedRead read, const FenceRequest& request) {
   return outcome;
 }
 
+FenceMessage read_one_scan(FencedRead read, const FenceRequest& request, Loans& loans,
+                           std::span<std::uint8_t> letter) {
+  FenceOutcome outcome = read_all(read, request);
+  if (outcome.scan.ok()) {
+    outcome.values = outcome.scan->values.size();
+    outcome.labels = outcome.scan->labels.size();
+    outcome.values_loan = loans.number(outcome.scan->values.data());
+    outcome.labels_loan = loans.number(outcome.scan->labels.data());
+  }
+  FenceMessage message;
+  message.kind = FenceMessage::done;
+  message.bytes = pack(outcome, letter);
+  if (message.bytes == 0) {
+    outcome.scan = error("its header holds more text than burr can keep");
+    message.bytes = pack(outcome, letter);
+  }
+  return message;
+}
+
+Result<TriangleMesh> read_all(FencedMesh read, const std::string& path) {
+  try {
+    return read(path);
+  } catch (const std::bad_alloc&) {
+    return error(short_name(path) +
+                 ": reading this mesh needs more memory than allowed; simplify it with another "
+                 "program");
+  } catch (const std::exception& problem) {
+    return error(short_name(path) + ": reading it failed: " + problem.what());
+  }
+}
+
+FenceMessage read_one_mesh(FencedMesh read, const FenceRequest& request, Loans& loans,
+                           std::span<std::uint8_t> letter) {
+  FenceMessage message;
+  Result<TriangleMesh> mesh = read_all(read, request.path);
+  if (mesh.ok()) {
+    const std::size_t floats = 3 * mesh->points.size(), numbers = 3 * mesh->faces.size();
+    auto* at = static_cast<std::uint8_t*>(
+        loans.lend(floats * sizeof(float) + numbers * sizeof(std::uint32_t)));
+    if (at != nullptr) {
+      message.kind = FenceMessage::mesh;
+      message.loan = loans.number(at);
+      message.bytes = mesh->points.size();
+      message.value = static_cast<double>(mesh->faces.size());
+      std::memcpy(at, mesh->points.data(), floats * sizeof(float));
+      std::memcpy(at + floats * sizeof(float), mesh->faces.data(), numbers * sizeof(std::uint32_t));
+      return message;
+    }
+    mesh =
+        error(Trouble::io, short_name(request.path) +
+                               ": there is not enough memory for this mesh; close other programs");
+  }
+  FenceOutcome outcome;
+  outcome.scan = mesh.error();
+  message.kind = FenceMessage::done;
+  message.bytes = pack(outcome, letter);
+  return message;
+}
+
 }  // namespace
 
-int answer_one_request(FencedRead read) {
+int answer_one_request(FencedRead read, FencedMesh read_mesh) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Ctrl-C goes to every process at the terminal; the asker decides whether to stop
   for (const int number : {SIGINT, SIGQUIT, SIGHUP}) ::signal(number, SIG_IGN);
@@ -164,7 +224,7 @@ int answer_one_request(FencedRead read) {
   if (::fstat(kFenceLetter, &facts) == 0 && facts.st_size == off_t{kLetterBytes})
     letter = ::mmap(nullptr, kLetterBytes, PROT_READ | PROT_WRITE, MAP_SHARED, kFenceLetter, 0);
   if (letter == MAP_FAILED) {
-    std::fputs("burr-read reads scans for burr; do not start it by hand\n", stderr);
+    std::fputs("burr-read reads scans and meshes for burr; do not start it by hand\n", stderr);
     return 2;
   }
   ::close(kFenceLetter);
@@ -180,8 +240,9 @@ int answer_one_request(FencedRead read) {
     (void)say(message);
     return 1;
   }
-  request.path = with_its_adf(request.path);
-  const FenceLimits limits = fence_limits(request.path, request.options);
+  if (!request.mesh) request.path = with_its_adf(request.path);
+  const FenceLimits limits =
+      request.mesh ? fence_limits_of_mesh() : fence_limits(request.path, request.options);
   if (!raise_walls(request.path, limits)) {
     message.kind = FenceMessage::no_walls;
     (void)say(message);
@@ -194,20 +255,9 @@ int answer_one_request(FencedRead read) {
 
   static Loans loans;  // must outlive all voxels
   set_voxel_lender(&loans);
-  FenceOutcome outcome = read_all(read, request);
-  if (outcome.scan.ok()) {
-    outcome.values = outcome.scan->values.size();
-    outcome.labels = outcome.scan->labels.size();
-    outcome.values_loan = loans.number(outcome.scan->values.data());
-    outcome.labels_loan = loans.number(outcome.scan->labels.data());
-  }
-  message = {};
-  message.kind = FenceMessage::done;
-  message.bytes = pack(outcome, {bytes, kLetterBytes});
-  if (message.bytes == 0) {
-    outcome.scan = error("its header holds more text than burr can keep");
-    message.bytes = pack(outcome, {bytes, kLetterBytes});
-  }
+  const std::span<std::uint8_t> out(bytes, kLetterBytes);
+  message = request.mesh ? read_one_mesh(read_mesh, request, loans, out)
+                         : read_one_scan(read, request, loans, out);
   (void)say(message);
   ::_exit(0);  // the voxels stay where they are
 }

@@ -105,7 +105,7 @@ class Unpacker {
 };
 
 // both sides must agree about this, structs included
-std::string version() { return std::string("fence 7 of burr ") + base::version(); }
+std::string version() { return std::string("fence 8 of burr ") + base::version(); }
 
 Trouble trouble_of(std::int32_t number) {
   switch (static_cast<Trouble>(number)) {
@@ -221,6 +221,7 @@ std::size_t pack(const FenceRequest& request, std::span<std::uint8_t> letter) {
   Packer to(letter);
   to.put(version());
   to.put(request.path);
+  to.put(static_cast<std::uint8_t>(request.mesh));
   to.put(request.options.series);
   to.put(request.options.spacing_mm);
   to.put(static_cast<std::uint8_t>(request.options.check_values));
@@ -235,6 +236,7 @@ bool unpack(std::span<const std::uint8_t> bytes, FenceRequest& request) {
   Unpacker from(bytes);
   from.demand(from.text() == version());
   request.path = from.text();
+  request.mesh = from.get<std::uint8_t>() != 0;
   request.options.series = from.text();
   for (int a = 0; a < 3; ++a) request.options.spacing_mm[a] = from.get<double>();
   request.options.check_values = from.get<std::uint8_t>() != 0;

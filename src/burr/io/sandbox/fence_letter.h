@@ -36,6 +36,8 @@ struct FenceMessage {
     done,       // reader: the outcome is in the letter, `bytes` long
     stranger,   // reader: the letter comes from another version of burr
     no_walls,   // reader: the kernel supports a limit but refuses to set it
+    mesh,       // reader: loan `loan` holds `bytes` points of three floats, then `value` triangles
+                // of three numbers of points
   };
   std::uint32_t kind = 0;
   std::uint32_t loan = 0;
@@ -48,6 +50,7 @@ static_assert(sizeof(FenceMessage) == 128);
 struct FenceRequest {
   std::string path;
   ReadOptions options;
+  bool mesh = false;  // a mesh is asked for, no scan; its options count for nothing
 };
 
 // A scan without its voxels, or an error.

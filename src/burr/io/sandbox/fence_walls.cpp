@@ -379,6 +379,13 @@ FenceLimits fence_limits(const fs::path& path, const ReadOptions& options) {
   return limits;
 }
 
+FenceLimits fence_limits_of_mesh() {
+  // The largest takes about 2 s and 400 MiB; a build with sanitizers ten times as long.
+  constexpr std::uint64_t kMemory = 1536 * kMiB;
+  constexpr double kSeconds = 30;
+  return {kMemory, kSeconds};
+}
+
 // A sanitizer opens programs, and starts one of its own to name the lines of its report.
 #if defined(BURR_SANITIZED)
 int landlock_version() { return 0; }

@@ -20,6 +20,9 @@ struct FenceLimits {
 [[nodiscard]] FenceLimits fence_limits(const std::filesystem::path& path,
                                        const ReadOptions& options);
 
+// Of a mesh, which has at most kLargestMesh bytes: the same for all.
+[[nodiscard]] FenceLimits fence_limits_of_mesh();
+
 // What this computer supports.
 [[nodiscard]] int landlock_version();  // 0: not supported
 [[nodiscard]] bool seccomp_offered();

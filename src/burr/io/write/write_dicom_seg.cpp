@@ -291,7 +291,7 @@ class Writer {
   }
 
   Status take_over() {
-    auto file = base::NewFile::create(path_);
+    auto file = base::NewFile::create(path_, base::kForAll);
     if (!file) return file.error();
     const off_t size = ::lseek(out_.get(), 0, SEEK_END);
     if (size <= 0) return error(Trouble::internal, path_ + ": burr-seg wrote nothing");

@@ -183,7 +183,7 @@ Status write_mesh(const surface::Mesh& mesh, const volume::TissueTable& tissues,
                  path + ": unknown file extension; use .stl, .ply, .obj, .3mf or .glb for a mesh");
   if (mesh.triangles.empty())
     return error(path + ": not written, because there is no surface; check that some bone is left");
-  auto file = base::NewFile::create(path);
+  auto file = base::NewFile::create(path, base::kForAll);
   if (!file) return file.error();
   const MeshOut out = placed(mesh, tissues, writer == write_glb ? Frame::lps : frame);
   Status written = writer(out, *file, path, progress);

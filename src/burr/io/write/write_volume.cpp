@@ -46,7 +46,7 @@ std::string nrrd_header(const volume::Grid& grid, const char* type, bool two_byt
 template <class Value, class Voxel>
 Status write_nrrd(const Bone& bone, const std::string& path, const std::string& header,
                   Progress& progress, const Voxel& voxel) {
-  auto file = base::NewFile::create(path);
+  auto file = base::NewFile::create(path, base::kForAll);
   if (!file) return file.error();
   file->write(header);
   Deflate deflate(*file, Deflate::Kind::gzip, 3);

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "burr/base/plain_file.h"
 #include "burr/base/printable.h"
 #include "burr/record/mcap/crc32.h"
 #include "burr/record/mcap/packed.h"
@@ -96,7 +97,8 @@ McapReader::~McapReader() {
 Result<std::unique_ptr<McapReader>> McapReader::open(const std::string& path, Trust trust) {
   std::unique_ptr<McapReader> reader(new McapReader);
   reader->path_ = path;
-  reader->file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (const Status plain = base::check_plain_file(path); !plain) return plain.error();
+  reader->file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   struct stat about {};
   if (reader->file_ < 0 || ::fstat(reader->file_, &about) != 0)
     return error(Trouble::io, fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));

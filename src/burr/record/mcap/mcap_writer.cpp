@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "burr/base/check.h"
+#include "burr/base/plain_file.h"
 #include "burr/base/version.h"
 #include "burr/record/mcap/crc32.h"
 
@@ -103,11 +104,14 @@ McapWriter::~McapWriter() {
 Status McapWriter::open(const std::string& path, const std::string& shown) {
   BURR_CHECK(file_ < 0);
   shown_ = shown;
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (Status plain = base::check_plain_file(path, shown); !plain) return plain;
+  // for this user alone: a recording holds how somebody moved, and may hold who it was
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file_ < 0) return trouble(shown_, "be written");
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
     return error(Trouble::io, shown_ + ": another burr is writing this file; choose another name");
   if (::ftruncate(file_, 0) != 0) return trouble(shown_, "be written");
+  static_cast<void>(::fchmod(file_, 0600));  // one that was there and is replaced, too
   if (Status written = append(mcap::kMagic); !written.ok()) return written;
   BytesOut header;
   header.text("burr");

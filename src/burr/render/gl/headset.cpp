@@ -184,6 +184,35 @@ std::optional<Headset::Now> Headset::begin(double wait_s) {
   return now;
 }
 
+double vibration_of(double force) {
+  if (!(force > kFeltForce)) return 0;  // a NaN too
+  return kMostVibration * std::min(force / kFullForce, 1.0);
+}
+
+void Headset::vibrate(double amplitude) {
+  Work& w = *work_;
+  if (w.over || !w.running || !w.focused) {
+    w.shakes = false;  // the runtime ended it with the focus
+    return;
+  }
+  auto which = made<XrHapticActionInfo>(XR_TYPE_HAPTIC_ACTION_INFO);
+  which.action = w.shaker;
+  if (!(amplitude > 0)) {
+    if (std::exchange(w.shakes, false))
+      static_cast<void>(w.good("StopHapticFeedback", w.xr.StopHapticFeedback(w.session, &which)));
+    return;
+  }
+  auto how = made<XrHapticVibration>(XR_TYPE_HAPTIC_VIBRATION);
+  how.amplitude = static_cast<float>(std::min(amplitude, 1.0));
+  how.duration = static_cast<XrDuration>(1e9 * kVibrates);
+  how.frequency = XR_FREQUENCY_UNSPECIFIED;
+  w.shakes = true;
+  static_cast<void>(
+      w.good("ApplyHapticFeedback",
+             w.xr.ApplyHapticFeedback(w.session, &which,
+                                      reinterpret_cast<const XrHapticBaseHeader*>(&how))));
+}
+
 // Draws one eye's picture into the free image. False: there is none to show.
 bool Headset::Work::draw(int eye, const Scene& scene) {
   Screen& screen = screens[static_cast<std::size_t>(eye)];

@@ -30,21 +30,22 @@ namespace openxr {
 // The functions of OpenXR, found by name: the loader is not linked.
 struct Calls {
 #define BURR_XR_CALLS(call) call(EnumerateInstanceExtensionProperties) call(CreateInstance)
-#define BURR_XR_INSTANCE_CALLS(call)                                                            \
-  call(DestroyInstance) call(GetSystem) call(GetSystemProperties) call(PollEvent)               \
-      call(CreateSession) call(DestroySession) call(BeginSession) call(EndSession)              \
-          call(CreateReferenceSpace) call(DestroySpace) call(EnumerateViewConfigurationViews)   \
-              call(EnumerateEnvironmentBlendModes) call(EnumerateSwapchainFormats)              \
-                  call(CreateSwapchain) call(DestroySwapchain) call(EnumerateSwapchainImages)   \
-                      call(AcquireSwapchainImage) call(WaitSwapchainImage)                      \
-                          call(ReleaseSwapchainImage) call(WaitFrame) call(BeginFrame)          \
-                              call(EndFrame) call(LocateViews) call(CreateActionSet)            \
-                                  call(DestroyActionSet) call(CreateAction) call(StringToPath)  \
-                                      call(SuggestInteractionProfileBindings)                   \
-                                          call(AttachSessionActionSets) call(CreateActionSpace) \
-                                              call(SyncActions) call(GetActionStateFloat)       \
-                                                  call(LocateSpace)                             \
-                                                      call(GetOpenGLGraphicsRequirementsKHR)
+#define BURR_XR_INSTANCE_CALLS(call)                                                             \
+  call(DestroyInstance) call(GetSystem) call(GetSystemProperties) call(PollEvent)                \
+      call(CreateSession) call(DestroySession) call(BeginSession) call(EndSession)               \
+          call(CreateReferenceSpace) call(DestroySpace) call(EnumerateViewConfigurationViews)    \
+              call(EnumerateEnvironmentBlendModes) call(EnumerateSwapchainFormats)               \
+                  call(CreateSwapchain) call(DestroySwapchain) call(EnumerateSwapchainImages)    \
+                      call(AcquireSwapchainImage) call(WaitSwapchainImage)                       \
+                          call(ReleaseSwapchainImage) call(WaitFrame) call(BeginFrame)           \
+                              call(EndFrame) call(LocateViews) call(CreateActionSet)             \
+                                  call(DestroyActionSet) call(CreateAction) call(StringToPath)   \
+                                      call(SuggestInteractionProfileBindings)                    \
+                                          call(AttachSessionActionSets) call(CreateActionSpace)  \
+                                              call(SyncActions) call(GetActionStateFloat)        \
+                                                  call(ApplyHapticFeedback)                      \
+                                                      call(StopHapticFeedback) call(LocateSpace) \
+                                                          call(GetOpenGLGraphicsRequirementsKHR)
 #define BURR_XR_MEMBER(name) PFN_xr##name name = nullptr;
   BURR_XR_CALLS(BURR_XR_MEMBER)
   BURR_XR_INSTANCE_CALLS(BURR_XR_MEMBER)
@@ -71,7 +72,9 @@ struct Headset::Work {
   XrSession session = XR_NULL_HANDLE;
   XrSpace room = XR_NULL_HANDLE, wand = XR_NULL_HANDLE;
   XrActionSet actions = XR_NULL_HANDLE;
-  XrAction pose = XR_NULL_HANDLE, trigger = XR_NULL_HANDLE;
+  XrAction pose = XR_NULL_HANDLE, trigger = XR_NULL_HANDLE, shaker = XR_NULL_HANDLE;
+  bool has_pen = false;  // the runtime knows Logitech's MX Ink
+  bool shakes = false;   // the controller was told to vibrate
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   struct Screen {
     XrSwapchain chain = XR_NULL_HANDLE;
@@ -105,6 +108,7 @@ struct Headset::Work {
   Status make_session();
   Status make_screens();
   Status make_actions(bool left_handed);
+  Status suggest_bindings(const std::string& hand);
   void start_waiter();
   void look_at_events();
   void changed(XrSessionState state);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "burr/base/table_cell.h"
 #include "burr/base/text_file.h"
 #include "burr/base/trimmed.h"
 
@@ -26,13 +27,13 @@ struct Records {
 
 std::string unquoted(std::string_view raw) {
   const std::string_view text = base::trimmed(raw);
-  if (text.size() < 2 || text.front() != '"' || text.back() != '"') return std::string(text);
+  if (text.size() < 2 || text.front() != '"' || text.back() != '"') return base::text_of_cell(text);
   std::string out;
   for (std::size_t n = 1; n + 1 < text.size(); ++n) {
     out += text[n];
     if (text[n] == '"' && text[n + 1] == '"' && n + 2 < text.size()) ++n;
   }
-  return out;
+  return base::text_of_cell(out);
 }
 
 Result<Records> records_of(std::string_view text, const std::string& file) {
