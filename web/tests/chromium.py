@@ -140,6 +140,7 @@ class Page:
         self.troubles = []  # what the console says as a warning or an error, and what was thrown
         self.requests = []  # (seconds since the start, address)
         self.sent = []  # their methods: GET, POST
+        self.asked_at = []  # [ms since 1970] by the browser's clock, as performance.timeOrigin
         self.target = browser.send("Target.createTarget", {"url": "about:blank"})["targetId"]
         self.session = browser.send("Target.attachToTarget", {"targetId": self.target, "flatten": True})["sessionId"]
         self.sessions = {self.session}
@@ -184,6 +185,7 @@ class Page:
         elif method == "Network.requestWillBeSent":
             self.requests.append((time.monotonic() - self.begun, params["request"]["url"]))
             self.sent.append(params["request"]["method"])
+            self.asked_at.append(1000 * params["wallTime"])
 
     def send(self, method, params=None):
         return self.browser.send(method, params, self.session)

@@ -143,12 +143,25 @@ bool McapReader::scan_message(std::uint64_t offset, std::uint64_t next) {
   return true;
 }
 
+// Its entries are times and places within the chunk before it: no checksum covers it, these do.
 bool McapReader::scan_message_index(std::uint64_t offset, std::uint64_t next) {
-  std::uint16_t channel = 0;
-  if (!read_at(offset + kRecordHead, &channel, sizeof channel)) return false;
+  constexpr std::uint64_t kEntry = 8 + 8;
+  if (next - offset > kLargestSmallRecord) return false;
+  std::vector<std::uint8_t> content;
+  if (!read_content(offset, Kind::message_index, content)) return false;
+  BytesIn in(content);
+  const auto channel = in.get<std::uint16_t>();
+  const auto length = in.get<std::uint32_t>();
+  if (!in.ok() || length % kEntry != 0 || length > in.left()) return false;
   if (chunks_.empty() || chunks_.back().bare) return true;
-  chunks_.back().index_offsets[channel] = offset;
-  chunks_.back().index_length = next - chunks_.back().offset - chunks_.back().length;
+  mcap::ChunkAt& chunk = chunks_.back();
+  for (std::uint64_t n = 0; n < length / kEntry; ++n) {
+    const auto time = in.get<std::uint64_t>();
+    const auto place = in.get<std::uint64_t>();
+    if (time < chunk.start_ns || time > chunk.end_ns || place >= chunk.unpacked_size) return false;
+  }
+  chunk.index_offsets[channel] = offset;
+  chunk.index_length = next - chunk.offset - chunk.length;
   return true;
 }
 
@@ -195,22 +208,37 @@ bool McapReader::scan_small(std::uint64_t offset, Kind kind, std::uint64_t next)
   return true;
 }
 
-// Messages outside of chunks go on here: this one and the next records are whole.
+// Messages outside of chunks go on here: this one and the next two are of known channels and of about
+// the time of those before. A record of an unknown kind between them proves nothing: bytes of a damaged
+// message often look like one.
 bool McapReader::messages_at(std::uint64_t offset) const {
   constexpr int kInOrder = 3;
-  for (int n = 0; n < kInOrder; ++n) {
+  constexpr int kMostRecords = 64;
+  constexpr std::uint64_t kBack = 10'000'000'000;              // writers of many channels [ns]
+  constexpr std::uint64_t kPause = 24 * 3600 * 1'000'000'000ULL;  // within one recording [ns]
+  constexpr std::uint64_t kDataEnd = kRecordHead + 4;
+  const std::uint64_t last = chunks_.empty() ? 0 : chunks_.back().end_ns;
+  int messages = 0;
+  for (int n = 0; n < kMostRecords && messages < kInOrder; ++n) {
     Kind kind = {};
     std::uint64_t next = 0;
-    std::uint16_t channel = 0;
     if (!record_at(offset, kind, next)) return false;
-    if (kind == Kind::message &&
-        (next - offset < kRecordHead + kMessageHead ||
-         !read_at(offset + kRecordHead, &channel, sizeof channel) || !knows(channel)))
-      return false;
-    if (kind == Kind::data_end) return n > 0;
+    if (kind == Kind::data_end) return messages > 0 && next - offset == kDataEnd;
+    if (kind == Kind::message) {
+      std::array<std::uint8_t, kMessageHead> head{};
+      if (next - offset < kRecordHead + kMessageHead ||
+          !read_at(offset + kRecordHead, head.data(), head.size()))
+        return false;
+      BytesIn in(head);
+      if (!knows(in.get<std::uint16_t>())) return false;
+      in.get<std::uint32_t>();
+      const auto time = in.get<std::uint64_t>();
+      if (!chunks_.empty() && (time + kBack < last || time > last + kPause)) return false;
+      ++messages;
+    }
     offset = next;
   }
-  return true;
+  return messages == kInOrder;
 }
 
 // The next position after offset where a whole, undamaged chunk begins, or where messages go on in a
