@@ -63,6 +63,10 @@ if(Python3_FOUND)
     # contours that pydicom writes, and an even-odd rule in numpy
     add_test(NAME io_contours_elsewhere COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/io/contours_elsewhere.py $<TARGET_FILE:burr_program>)
     set_tests_properties(io_segments_elsewhere io_contours_elsewhere PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+    # what people had trouble with, by the command line
+    add_test(NAME importing_reported COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/importing/reported_test.py
+      $<TARGET_FILE:burr_program> ${CMAKE_C_COMPILER})
+    set_tests_properties(importing_reported PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
     # thousands of sessions: shards, kills, engines; and a cluster of Slurm on this computer
     add_test(NAME batch COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/batch/batch_test.py $<TARGET_FILE:burr_program>)
     add_test(NAME batch_slurm COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/batch/slurm_test.py $<TARGET_FILE:burr_program>)

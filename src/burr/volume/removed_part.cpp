@@ -165,7 +165,8 @@ Result<std::unique_ptr<Bone>> on_a_finer_grid(const Bone& before, const CutField
   const math::Ijk bricks = (grid.size.array() + kBrickEdge - 1) / kBrickEdge;
   if (static_cast<double>(bricks.x()) * bricks.y() * bricks.z() > 1e9)
     return error(
-        "the removed part cannot be computed on a finer grid, because the grid would be too large");
+        "the difference between the two bones cannot be computed on a finer grid, because the grid "
+        "would be too large");
   const auto brick_of = [&](const math::Ijk& fine) {
     const math::Ijk at = fine / kBrickEdge;
     return static_cast<std::size_t>(at.x()) +
@@ -189,8 +190,8 @@ Result<std::unique_ptr<Bone>> on_a_finer_grid(const Bone& before, const CutField
   const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
   if (count * kBrickBytes > kMostBytes)
     return error(
-        "the removed part cannot be computed on a finer grid, because it would need more than 1 "
-        "GB");
+        "the difference between the two bones cannot be computed on a finer grid, because it would "
+        "need more than 1 GB");
 
   auto removed = std::make_unique<Bone>(grid, before.tissues(), count, 0, false);
   bool any = false;
@@ -220,7 +221,7 @@ Result<std::unique_ptr<Bone>> on_a_finer_grid(const Bone& before, const CutField
           removed->build_tissue(brick)[v] = tissue;
         }
   });
-  if (!any) return error("the removed part is too thin to have a surface");
+  if (!any) return error("the difference between the two bones is too thin to have a surface");
   return removed;
 }
 
@@ -229,14 +230,14 @@ Result<std::unique_ptr<Bone>> on_a_finer_grid(const Bone& before, const CutField
 Result<std::unique_ptr<Bone>> removed_part(const Bone& before, const Bone& after, int finer) {
   BURR_CHECK(finer >= 1 && finer <= 8);
   if (!same_place(before.grid(), after.grid()))
-    return error("the two bones are not on the same grid, so the removed part cannot be computed");
+    return error("the two bones are not on the same grid, so their difference cannot be computed");
   const CutField cut(before, after);
   if (cut.touched().empty())
     return error("nothing has been removed from this bone yet; export `part` bone instead");
   if (finer > 1) return on_a_finer_grid(before, cut, finer);
   bool any = false;
   auto removed = on_the_same_grid(before, cut, any);
-  if (!any) return error("the removed part is too thin to have a surface");
+  if (!any) return error("the difference between the two bones is too thin to have a surface");
   return removed;
 }
 

@@ -60,7 +60,7 @@ class MillCase {
     if (light_.is_on()) light_target();
   }
   void draw_steps_panel(Ui& ui);
-  void draw_light(const Ui& ui) const { light_.draw(ui, scene_.camera); }
+  void draw_light(const Ui& ui, float covered) const { light_.draw(ui, scene_.camera, covered); }
   [[nodiscard]] const scenario::Step* step() const { return steps_.now(); }
   // Where the work of the current step lies (step_follower.h). Rises with each step that becomes the
   // current one, and where the user wants to see its target.

@@ -166,7 +166,7 @@ void Mill::draw_figures() {
   if (row_.ledger.removed > 0) parts_.side.leave_task();
   if (!over_.page()) parts_.view.draw_bar(ui, parts_.hand.work());
   parts_.names.draw_pins(ui, parts_.side.right());
-  parts_.work_case.draw_light(ui);
+  parts_.work_case.draw_light(ui, parts_.view.column());
   parts_.side.draw(ui);
   if (options_.done_ends && !over_.page() && draw_done_button(ui, parts_.view.column()))
     actions_.declare_done();

@@ -39,7 +39,7 @@ class StepFollower {
   MillView& view_;
   MillTools& tools_;
   MillHand& hand_;
-  int turns_ = 0;  // of the case, that were asked about
+  int turns_ = 0;  // MillCase::turns() when the target was last asked for
   std::optional<std::pair<std::size_t, bool>>
       set_;  // the step that press and tool were set for, and whether it was followed
   std::optional<guidance::StepWatch::Seen> waiting_;  // until the hand lets go

@@ -108,10 +108,12 @@ void StepLight::off(render::Scene& scene) {
   on_ = false;
 }
 
-void StepLight::draw(const Ui& ui, const render::Camera& camera) const {
+void StepLight::draw(const Ui& ui, const render::Camera& camera, float covered) const {
   if (!on_) return;
   const float u = ui.unit();
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  // what lies behind the slices has no sign over them
+  draw.PushClipRect({0, 0}, {ui.width() - covered, ui.height()});
   for (const auto& line : marks_.outline) {
     const auto a = on_picture(camera, line[0], ui.width(), ui.height());
     const auto b = on_picture(camera, line[1], ui.width(), ui.height());
@@ -135,6 +137,7 @@ void StepLight::draw(const Ui& ui, const render::Camera& camera) const {
     write(ui, {std::round(middle->x + r + 5 * u), std::round(middle->y - 8 * u)}, ink_of(mark.kind),
           mark_text(mark));
   }
+  draw.PopClipRect();
 }
 
 }  // namespace burr::app

@@ -25,7 +25,8 @@ class StepLight {
   [[nodiscard]] const guidance::StepMarks& marks() const { return marks_; }
   void on(guidance::StepMarks marks, render::Scene& scene);
   void off(render::Scene& scene);
-  void draw(const Ui& ui, const render::Camera& camera) const;
+  // covered: width at the right that slices cover [pixel]
+  void draw(const Ui& ui, const render::Camera& camera, float covered) const;
 
  private:
   bool on_ = false;

@@ -132,7 +132,7 @@ Result<ExportDone> write_export(const ExportRequest& request, const volume::Bone
   const auto now = volume::shared_copy(bone, changed, progress);
   if (!now) return now.error();
   if (request.what == ExportWhat::pieces) {
-    // the user was asked whether files may be replaced
+    // the export page has asked before whether files may be replaced
     const auto may_write = [](const std::string&) { return fine(); };
     const auto written =
         write_pieces(**now, request.path, options_of(request.what), may_write, progress, store);

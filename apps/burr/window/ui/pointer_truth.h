@@ -1,13 +1,14 @@
-// apps/burr/window/ui/pointer_truth.h - which buttons of the mouse are really down. A button that was
-// pressed in the window and let go outside of it stays down for SDL (2.26), which then swallows the next
-// press as no change. So the pointer itself is asked, and what SDL does not report is added to its events.
+// apps/burr/window/ui/pointer_truth.h - which buttons of the mouse are really down. When a button is
+// pressed in the window and let go outside of it, SDL (2.26) still holds it for down. The next press is
+// then no change for SDL, which drops it. So the X server is asked for the state of the buttons, and the
+// events that SDL did not report are added.
 //
 //     PointerTruth truth;
 //     while (truth.next(event)) ...;   // in place of SDL_PollEvent()
 //
-// The pointer is asked after each change of focus or visibility, and, as long as SDL believes in a button
-// that is up, once for each picture. Where the system does not tell (Wayland, without a screen), SDL is
-// believed. Thread: main.
+// The X server is asked after each change of focus or visibility; while SDL holds a button for down that is
+// up, once for each picture. Where there is no X server (Wayland, no screen), SDL's events are used as they
+// are. Thread: main.
 #pragma once
 
 #include <SDL2/SDL.h>

@@ -25,7 +25,8 @@ constexpr std::uint64_t kMessageHead = 2 + 4 + 8 + 8;  // channel, sequence, two
 // messages outside of chunks are taken together up to here [byte]
 constexpr std::uint64_t kRun = std::uint64_t{1} << 20;
 
-// A chunk begins here, to judge by its lengths: of its name, of what is packed, and of itself.
+// A chunk begins here, to judge by its lengths: of its name, of what is packed, and of itself. One without
+// content is none: it would lose nothing, and "06 28" before zeros, as bricks hold them, looks like it.
 bool looks_like_a_chunk(ByteSpan bytes) {
   BytesIn in(bytes);
   in.get<std::uint8_t>();
@@ -33,7 +34,8 @@ bool looks_like_a_chunk(ByteSpan bytes) {
   in.take(kChunkFixed - 4);  // times, size, crc
   const std::string_view compression = in.text();
   const auto packed = in.get<std::uint64_t>();
-  return in.ok() && packed <= length && length - packed == kChunkFixed + compression.size() + 8;
+  return in.ok() && packed > 0 && packed <= length &&
+         length - packed == kChunkFixed + compression.size() + 8;
 }
 
 }  // namespace
@@ -214,7 +216,7 @@ bool McapReader::scan_small(std::uint64_t offset, Kind kind, std::uint64_t next)
 bool McapReader::messages_at(std::uint64_t offset) const {
   constexpr int kInOrder = 3;
   constexpr int kMostRecords = 64;
-  constexpr std::uint64_t kBack = 10'000'000'000;              // writers of many channels [ns]
+  constexpr std::uint64_t kBack = 10'000'000'000;                 // writers of many channels [ns]
   constexpr std::uint64_t kPause = 24 * 3600 * 1'000'000'000ULL;  // within one recording [ns]
   constexpr std::uint64_t kDataEnd = kRecordHead + 4;
   const std::uint64_t last = chunks_.empty() ? 0 : chunks_.back().end_ns;
