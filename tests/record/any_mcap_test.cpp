@@ -191,12 +191,17 @@ TEST(AnyMcap, AnyChoicesTogether) {
   }
 }
 
-// Where the first message outside of chunks begins, at or after `from`.
-std::size_t message_after(const Bytes& bytes, std::size_t from) {
+// Where the first record of a kind begins, at or after `from`, that is longer than `least`; outside of chunks.
+std::size_t record_after(const Bytes& bytes, std::size_t from, mcap::Kind kind,
+                         std::uint64_t least = 0) {
   std::size_t at = mcap::kMagic.size();
-  for (std::uint64_t length = 0; at < from || bytes[at] != 0x05; at += 9 + length)
-    std::memcpy(&length, &bytes[at + 1], sizeof length);
-  return at;
+  for (std::uint64_t length = 0;; at += mcap::kRecordHead + length) {
+    std::memcpy(&length, &bytes.at(at + 1), sizeof length);
+    if (at >= from && bytes[at] == static_cast<std::uint8_t>(kind) && length > least) return at;
+  }
+}
+std::size_t message_after(const Bytes& bytes, std::size_t from) {
+  return record_after(bytes, from, mcap::Kind::message);
 }
 
 // Damage costs what lies there, however the file is written: what follows is found again.
@@ -242,6 +247,62 @@ TEST(AnyMcap, ADamagedPartCostsOnlyItself) {
       for (; steps.next(step); ++ticks) expect_same(step.row, original.truth.ticks[step.row.tick]);
       EXPECT_EQ(ticks, report->ticks);
     }
+  }
+}
+
+// Bricks hold many zeros, and small numbers between them: such bytes of a damaged message look like the
+// head of an empty chunk, of a message or of a record of an unknown kind. None is taken for one.
+TEST(AnyMcap, BytesOfADamagedMessageAreNoRecords) {
+  if (!can_write()) GTEST_SKIP() << "needs python3, libzstd.so.1 and lz4";
+  BURR_SEEDED(random, 77);
+  Original original;
+  record_one(original, random);
+  const std::string path = original.folder / "again.mcap", to = original.folder / "mended.mcap";
+  write_again(original.path, path, "no_chunks");
+  const Bytes whole = bytes_of_file(path);
+  for (const int kind : {0x05, 0x06, 0x07, 0x0F, 0x28, 0xA0}) {
+    SCOPED_TRACE(kind);
+    Bytes bytes = whole;
+    const std::size_t at =
+        record_after(bytes, bytes.size() / 2, mcap::Kind::message, std::uint64_t{10'000});
+    std::uint64_t damaged = 0;
+    std::memcpy(&damaged, &bytes[at + 1], sizeof damaged);
+    for (std::size_t n = 0; n < 20; ++n) bytes[at + n] ^= 0x5A;
+    std::fill_n(&bytes[at + 100], 2000, std::uint8_t{0});
+    for (const std::size_t n : {std::size_t{300}, std::size_t{349}, std::size_t{398}}) {
+      bytes[at + n] =
+          static_cast<std::uint8_t>(kind);  // three of them, each as long as the fields of a chunk
+      bytes[at + n + 1] = 0x28;
+    }
+    write_file(path, bytes);
+    NoProgress progress;
+    const auto report = repair(path, to, progress);
+    ASSERT_TRUE(report.ok()) << report.error().text;
+    EXPECT_EQ(report->lost_bytes, mcap::kRecordHead + damaged);
+  }
+}
+
+// No checksum covers an index of messages. Its times and places lie in the chunk before it, or it is damaged.
+TEST(AnyMcap, ADamagedIndexOfMessagesIsNoticed) {
+  if (!can_write()) GTEST_SKIP() << "needs python3, libzstd.so.1 and lz4";
+  BURR_SEEDED(random, 78);
+  Original original;
+  record_one(original, random);
+  const std::string path = original.folder / "again.mcap", to = original.folder / "mended.mcap";
+  write_again(original.path, path, "lz4 chunk_bytes=20000");
+  const Bytes whole = bytes_of_file(path);
+  // in the time and in the place of its first entry, and in the length of its entries
+  for (const std::size_t field : {std::size_t{6}, std::size_t{14}, std::size_t{2}}) {
+    SCOPED_TRACE(field);
+    Bytes bytes = whole;
+    const std::size_t at = record_after(bytes, bytes.size() / 2, mcap::Kind::message_index, 20);
+    bytes[at + mcap::kRecordHead + field + 3] ^= 0x5A;
+    write_file(path, bytes);
+    NoProgress progress;
+    const auto report = repair(path, to, progress);
+    ASSERT_TRUE(report.ok()) << report.error().text;
+    EXPECT_FALSE(report->was_whole);
+    EXPECT_EQ(report->ticks, original.truth.ticks.size()) << "the chunk itself is whole";
   }
 }
 
