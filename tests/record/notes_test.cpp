@@ -33,7 +33,8 @@ constexpr CourseKind kAllKinds[] = {
     CourseKind::help_shown, CourseKind::help_hidden,  CourseKind::warning,
     CourseKind::question,   CourseKind::answer,       CourseKind::pause,
     CourseKind::resume,     CourseKind::complication, CourseKind::self_mark,
-    CourseKind::done,       CourseKind::reopened,     CourseKind::ended};
+    CourseKind::done,       CourseKind::reopened,     CourseKind::ended,
+    CourseKind::continued};
 
 double number(Random& random) { return std::normal_distribution<double>(0, 1)(random); }
 

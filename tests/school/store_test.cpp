@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -168,6 +169,37 @@ TEST_P(StoreTest, TheSameRecordingIsTheSameSession) {
   EXPECT_EQ((*items)[2].result, "met");
   one.learner = "otter-5";
   EXPECT_FALSE(enter(store(), one));
+}
+
+// What was entered before the session was continued gives way; what a person has marked stays.
+TEST_P(StoreTest, AContinuedSessionIsOneSession) {
+  add_learner("kestrel-27");
+  add_learner("heron-4821");
+  const SessionRecord first = made_session("kestrel-27", "first");
+  SessionRecord second = made_session("kestrel-27", "first and second");
+  second.goes_on_with = {first.recording_hash};
+  SessionRecord third = made_session("kestrel-27", "all three");
+  third.goes_on_with = {first.recording_hash, second.recording_hash};
+  for (const SessionRecord* one : std::array<const SessionRecord*, 3>{&first, &second, &third}) {
+    const auto entered = enter(store(), *one);
+    ASSERT_TRUE(entered) << entered.error().text;
+    EXPECT_TRUE(entered->session);
+    EXPECT_EQ(entered->taken_out, one == &first ? 0U : 1U);
+    EXPECT_EQ(count("SELECT count(*) FROM session"), 1);
+    EXPECT_EQ(count("SELECT count(*) FROM score"), 2);
+    EXPECT_EQ(count("SELECT count(*) FROM metric"), 1);
+    EXPECT_EQ(count("SELECT count(*) FROM self_mark"), 2);
+  }
+  const auto back = session_from_json(to_json(third), "test");
+  ASSERT_TRUE(back) << back.error().text;
+  EXPECT_EQ(back->goes_on_with, third.goes_on_with);
+  // of another learner nothing is taken out
+  SessionRecord other = made_session("heron-4821", "mine");
+  other.goes_on_with = {third.recording_hash};
+  const auto entered = enter(store(), other);
+  ASSERT_TRUE(entered) << entered.error().text;
+  EXPECT_EQ(entered->taken_out, 0U);
+  EXPECT_EQ(count("SELECT count(*) FROM session"), 2);
 }
 
 TEST_P(StoreTest, CountsAttemptsAndUnguidedSessions) {

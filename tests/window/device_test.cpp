@@ -117,7 +117,7 @@ TEST_F(DeviceWindow, ItsAxesAreThoseOfTheViewAlsoOfATurnedOne) {
                    {"turned", looks(10), {}},
                    {"to the user",
                     moving_until({0, 0, 8}, [&] { return Vec3(8 * scene.camera.backward()); }),
-                    [] { press(SDLK_q); }}});
+                    [] { leave_work(); }}});
 }
 
 TEST_F(DeviceWindow, StopsByKeyAndGoesOnByTheSame) {
@@ -147,7 +147,7 @@ TEST_F(DeviceWindow, StopsByKeyAndGoesOnByTheSame) {
            {"on again", [&] { return !lifted(session); },
             [&] {
               EXPECT_NEAR((hand(session) - start).norm(), 0, 1e-6);
-              press(SDLK_q);
+              leave_work();
             }}});
 }
 
@@ -187,7 +187,7 @@ TEST_F(DeviceWindow, TakenAgainInBoneItSaysToLiftFirst) {
                       goes_by(-0.5);
                       return !said();
                     },
-                    [] { press(SDLK_q); }}});
+                    [] { leave_work(); }}});
 }
 
 TEST_F(DeviceWindow, AFootOnTheClutchLiftsIt) {
@@ -215,7 +215,7 @@ TEST_F(DeviceWindow, AFootOnTheClutchLiftsIt) {
                    {"let down", [&] { return !lifted(session); },
                     [&] {
                       EXPECT_NEAR((hand(session) - start).norm(), 0, 1e-6);
-                      press(SDLK_q);
+                      leave_work();
                     }}});
 }
 
@@ -315,7 +315,7 @@ TEST_F(DeviceWindow, ASecondOneLeadsTheSuctionAndFeelsTheBone) {
             press(SDLK_BACKSPACE);
           }},
          {"the stop is one for both hands", [&] { return felt() == Vec3::Zero(); },
-          [] { press(SDLK_q); }}});
+          [] { leave_work(); }}});
   }
   const std::lock_guard lock(hd_->mutex);
   EXPECT_LE(hd_->touch[1].largest_force, 3.3 + 1e-9);
@@ -351,7 +351,7 @@ TEST_F(DeviceWindow, ASecondOneHoldsAToolThatCuts) {
   mill_by(*ready, {{"the tool is drawn", drawn, [&] {
                       EXPECT_EQ(second.tool.number, 0);
                       EXPECT_EQ(second.ledger.removed, 0) << "in free air";
-                      press(SDLK_q);
+                      leave_work();
                     }}});
 }
 
@@ -382,7 +382,7 @@ TEST_F(DeviceWindow, TheStopStopsAMouseBesideASuctionToo) {
                       EXPECT_EQ(removed(), then);
                       EXPECT_EQ(row_.hand.pedal, 0);
                       button(SDL_BUTTON_LEFT, false);
-                      press(SDLK_q);
+                      leave_work();
                     }}});
 }
 
@@ -399,7 +399,7 @@ TEST_F(DeviceWindow, IsChosenOnTheStartPageAndKept) {
             {"it is kept", [&] { return desk_->settings.device == "touch"; }, nullptr},
             {"looked for and let be", looks(30), [] { click(200, 240); }},  // the first case
             {"milling", on(Page::milling), [&] { led = taken(); }},
-            {"pictures", looks(5), [] { press(SDLK_q); }},
+            {"pictures", looks(5), [] { leave_work(); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_TRUE(led);
   EXPECT_FALSE(taken());
@@ -444,7 +444,7 @@ TEST_F(DeviceWindow, PulledOutItIsSaidAndTheLastTicksAreKept) {
                       static_cast<void>(hand(*ready->session));
                       return row_.hand.valid;
                     },
-                    [] { press(SDLK_q); }}});
+                    [] { leave_work(); }}});
   int files = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / "state" / "faults")) {
     std::ifstream file(entry.path());
@@ -470,7 +470,7 @@ TEST_F(DeviceWindow, ItsSettingsAreChangedThereAndKeptInItsBook) {
                    {"the next", looks(3), [] { click(416, 377); }},
                    {"dead-man", [&] { return kept().mapping.dead_man; }, none},
                    {"a look", looks(3), [] { press(SDLK_ESCAPE); }},
-                   {"the page to go", looks(5), [] { press(SDLK_q); }}});
+                   {"the page to go", looks(5), [] { leave_work(); }}});
   EXPECT_LT(kept().max_force_n, 3.3);
   EXPECT_EQ(kept().mapping.scale, 1);
   EXPECT_EQ(ready->session->servo().settings().limit.user_force, 3.3) << "as it began";

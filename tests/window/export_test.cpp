@@ -88,7 +88,7 @@ TEST_F(Export, WritesTheBoneWhileTheSessionGoesOn) {
   steps.push_back({"the word that it is written", says("Written: "), nullptr});
   steps.push_back({"... in triangles", says("triangles"), [&] {
                      running = session.running();
-                     press(SDLK_q);
+                     leave_work();
                    }});
   mill_in(*ready, std::move(steps));
   EXPECT_TRUE(running);
@@ -107,7 +107,7 @@ TEST_F(Export, WritesWhatWasRemovedAndItsVolumeIsThatOfTheLedger) {
   auto steps = cuts(session);
   steps.push_back({"the page", looks(5), [] { choose(kRemoved); }});
   steps.push_back({"the choice", looks(5), [] { write(); }});
-  steps.push_back({"the word that it is written", says("triangles"), [] { press(SDLK_q); }});
+  steps.push_back({"the word that it is written", says("triangles"), [] { leave_work(); }});
   mill_in(*ready, std::move(steps));
   const double removed = session.outcome().ledger.removed;
   ASSERT_GT(removed, 0) << "nothing was cut: the test shows nothing";
@@ -152,7 +152,7 @@ TEST_F(Export, WritesWhatWasAddedAndEachPiece) {
                     }},
                    {"the page again", looks(5), [] { choose(kPieces); }},
                    {"the pieces", looks(5), [] { write(); }},
-                   {"the word that they are written", says("piece_1.stl"), [] { press(SDLK_q); }}});
+                   {"the word that they are written", says("piece_1.stl"), [] { leave_work(); }}});
   EXPECT_NE(told.find("added.stl"), std::string::npos) << told;
   ASSERT_GT(session.outcome().ledger.added, 0) << "nothing was added: the test shows nothing";
   const fs::path truth = folder_ / "truth.stl";
@@ -182,7 +182,7 @@ TEST_F(Export, AsksBeforeItReplacesAFile) {
                       before = bytes_of(folder_ / "picture.png");
                       write();  // now it says: replace it
                     }},
-                   {"the word that it is written", says("Written: "), [] { press(SDLK_q); }}});
+                   {"the word that it is written", says("Written: "), [] { leave_work(); }}});
   EXPECT_EQ(before, "mine");
   EXPECT_EQ(bytes_of(folder_ / "picture.png").substr(1, 3), "PNG");
 }
@@ -219,7 +219,7 @@ TEST_F(Export, SaysWhatIsWrongAndOneGoesOn) {
           return full.find("File too large") != std::string::npos;
         },
         [] { press(SDLK_ESCAPE); }},
-       {"no page", looks(5), [] { press(SDLK_q); }}});
+       {"no page", looks(5), [] { leave_work(); }}});
   ::setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, was);
   EXPECT_NE(full.find("bone"), std::string::npos) << full;

@@ -154,7 +154,7 @@ TEST_F(PlaneWindow, TheWheelPutsTheHandIntoTheBoneWhichHoldsTheBurr) {
            {"over", said("follows the bone"), {}},
            {"gone", looks(3), [&] {
               EXPECT_EQ(lines(scene), 0);
-              press(SDLK_q);
+              leave_work();
             }}});
 }
 
@@ -201,7 +201,7 @@ TEST_F(PlaneWindow, KeysAloneLeadTheHandPressAndMill) {
             pressing_until(
                 [&] { return static_cast<void>(session.view(row)), row.ledger.removed > 0.5e-9; },
                 [](bool) { press(SDLK_SPACE); }),
-            [] { press(SDLK_q); }}});
+            [] { leave_work(); }}});
 }
 
 }  // namespace

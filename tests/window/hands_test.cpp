@@ -122,6 +122,10 @@ TEST_F(HandsWindow, AWholeSessionByGamepadAlone) {
   tap(steps, pad, SDL_CONTROLLER_BUTTON_BACK);  // closes the help, no more
   steps.push_back({"still here", looks(5), [&] { EXPECT_EQ(desk_->page, Page::milling); }});
   steps.push_back({"leave", looks(2), [&] { pad.button(SDL_CONTROLLER_BUTTON_BACK, true); }});
+  steps.push_back({"the question", looks(3), [&] {
+                     EXPECT_EQ(desk_->page, Page::milling);
+                     pad.button(SDL_CONTROLLER_BUTTON_A, true);
+                   }});
   mill_by(*ready, std::move(steps));
   EXPECT_TRUE(undone);
 }
@@ -141,7 +145,7 @@ TEST_F(HandsWindow, AGamepadThatIsPulledOutWhileItPressesLifts) {
            {"pressing", [&] { return pedal() > 0.9; }, [&] { pad.pull_out(); }},
            {"a picture or two", looks(3), [&] { EXPECT_EQ(pedal(), 0); }},
            {"told", [&] { return desk_->status_text.find("disconnected") != std::string::npos; },
-            [] { press(SDLK_q); }}});
+            [] { leave_work(); }}});
 }
 
 TEST_F(HandsWindow, ATriggerThatIsHeldFromTheStartPressesOnlyAfterItWasLetGo) {
@@ -166,7 +170,7 @@ TEST_F(HandsWindow, ATriggerThatIsHeldFromTheStartPressesOnlyAfterItWasLetGo) {
                     [&] { pad.button(SDL_CONTROLLER_BUTTON_B, false); }},
                    {"and it stays so", looks(10), [&] {
                       EXPECT_EQ(pedal(), 0);
-                      press(SDLK_q);
+                      leave_work();
                     }}});
 }
 
@@ -208,7 +212,7 @@ TEST_F(HandsWindow, APedalMillsByItsWayChangesTheBurrAndLetsTheCoolantRun) {
        {"by button", [&] { return pedal() > 0.99; }, [&] { stick.pull_out(); }},
        {"pulled out", looks(3), [&] {
           EXPECT_EQ(pedal(), 0);
-          press(SDLK_q);
+          leave_work();
         }}});
 }
 
@@ -346,7 +350,7 @@ TEST_F(CapWindow, MovesPressesTurnsAndChangesTheBurr) {
        {"what cannot be", until(looks(10)), [&] {
           EXPECT_TRUE(scene.burr.world_from_tool.p.allFinite());
           EXPECT_TRUE(std::isfinite(scene.camera.azimuth));
-          press(SDLK_q);
+          leave_work();
         }}});
   desk_.reset();
   EXPECT_EQ(opened_(), 0) << "left open";
@@ -393,7 +397,7 @@ TEST_F(CapWindow, BeforeAPlaneItIsAHandOfThreeAxes) {
                     [&] { held = {0, 0, 300, 0, 0, 0}; }},
                    {"away", until([&] { return (hand() - was).dot(camera.backward()) < 0; }), [&] {
                       held = {};
-                      press(SDLK_q);
+                      leave_work();
                     }}});
 }
 

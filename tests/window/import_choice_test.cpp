@@ -201,7 +201,7 @@ TEST_F(MemoryWindow, OfASessionIsAboutWhatWasSaid) {
              [&] {
                working = memory_now_mb("VmRSS:") - before;
                peak = memory_now_mb("VmHWM:") - before;
-               press(SDLK_q);
+               leave_work();
              }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   RecordProperty("said_making", std::to_string(said.making));

@@ -57,7 +57,7 @@ class ImportWindow : public Window {
              }},
             {"a while", [this] { return Clock::now() - began_ > std::chrono::seconds(3); },
              [] { press(SDLK_s); }},  // kept, cut or not
-            {"the word about it", looks(5), [] { press(SDLK_q); }},
+            {"the word about it", looks(5), [] { leave_work(); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}};
   }
   void by(std::vector<Script::Step> steps, std::vector<Script::Step> more) {
@@ -135,7 +135,7 @@ TEST_F(ImportWindow, DoesNotReadTheScanTwice) {
                fs::remove(file);  // a stick that was pulled out
                press(SDLK_RETURN);
              }},
-            {"milling", on(Page::milling), [] { press(SDLK_q); }},
+            {"milling", on(Page::milling), [] { leave_work(); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_EQ(desk_->message, "");
 }
@@ -619,7 +619,7 @@ TEST_F(ImportWindow, ShowsWhatWasMeasuredInTheSlices) {
           move_to(1150, 100);  // where it was: the name of what is there stands beside the pointer
         }},
        {"the wider window", looks(60), keep(pulled, [] { press(SDLK_w); })},
-       {"the model again", looks(60), keep(again, [] { press(SDLK_q); })},
+       {"the model again", looks(60), keep(again, [] { leave_work(); })},
        {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   const auto changed = [](const render::Image& a, const render::Image& b) {
     return differ(a, b, 1080, 20, 1270, 640);
@@ -642,7 +642,7 @@ TEST_F(ImportWindow, WhatWasMeasuredIsThereWhenOneGoesOn) {
                move_to(640, 360);
                press(SDLK_SPACE);
              }},
-            {"some pictures", looks(90), [] { press(SDLK_q); }},
+            {"some pictures", looks(90), [] { leave_work(); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
   ASSERT_EQ(kept.size(), 1U) << "nothing was cut: the test shows nothing";

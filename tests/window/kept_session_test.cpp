@@ -7,9 +7,13 @@
 #include <string>
 
 #include "burr/base/progress.h"
+#include "burr/record/player.h"
+#include "burr/sim/replay.h"
+#include "burr/workshop/recorded_bone.h"
 #include "shared/window_session.h"
 #include "shared/work.h"
 #include "support/folder.h"
+#include "window/parts/autosave.h"
 #include "window/parts/kept_sessions.h"
 
 namespace burr::app {
@@ -59,7 +63,7 @@ TEST_F(Kept, RecipesComeBackToTheBit) {
     if (coin()) recipe.materials = "/nowhere/m.toml";
     if (coin()) recipe.memory_mb = 1000 * share(random);
     {
-      Autosave autosave(state_, *ready, options, false, {});
+      Autosave autosave(state_, *ready, options, {});
       ASSERT_TRUE(autosave.keep()) << autosave.trouble();
       ASSERT_TRUE(autosave.finish());
       ASSERT_EQ(autosave.trouble(), "");
@@ -79,9 +83,11 @@ TEST_F(Kept, ASessionThatIsContinuedGoesOnWhereItEnded) {
   auto ready = ready_ball(ball);
   ASSERT_TRUE(ready) << ready.error().text;
   double seconds = 0, removed = 0;
-  for (int n = 0; n < 2; ++n) {
-    Autosave autosave(state_, *ready, ball, n > 0, {});
+  KeptSession before;
+  for (int n = 0; n < 3; ++n) {
+    Autosave autosave(state_, *ready, ball, {}, n > 0 ? &before : nullptr);
     ASSERT_EQ(autosave.trouble(), "");
+    ASSERT_EQ(autosave.apart(), "");
     sim::Session& session = *ready->session;
     session.run(0.02, quiet);  // a larger burr is refused until the hand was in the air
     session.command({tick::CommandKind::burr_radius, 3e-3});
@@ -98,7 +104,7 @@ TEST_F(Kept, ASessionThatIsContinuedGoesOnWhereItEnded) {
     seconds += session.outcome().seconds;
     removed += session.outcome().ledger.removed;
     const auto kept = kept_sessions(state_);
-    ASSERT_EQ(kept.size(), static_cast<std::size_t>(n + 1));
+    ASSERT_EQ(kept.size(), 1U) << "one session, one row";
     EXPECT_NEAR(kept.front().seconds, seconds, 1e-9);
     EXPECT_NEAR(kept.front().removed_mm3, 1e9 * removed, 1e-6);
     auto next = continue_session(kept.front(), quiet);
@@ -111,8 +117,26 @@ TEST_F(Kept, ASessionThatIsContinuedGoesOnWhereItEnded) {
     EXPECT_NEAR(servo.spindle_rad_s, 3000, 1e-9);
     EXPECT_TRUE(servo.irrigated);
     ready = std::move(next);
+    before = kept.front();
   }
   EXPECT_GT(removed, 0);
+
+  // one recording, which replays to the bit and whose account is that of all parts
+  auto player = record::Player::open(before.file.string());
+  ASSERT_TRUE(player) << player.error().text;
+  EXPECT_EQ((*player)->continued().size(), 2U);
+  EXPECT_TRUE((*player)->notices().empty()) << (*player)->notices().front();
+  EXPECT_NEAR((*player)->seconds(), seconds, 1e-9);
+  const auto last = (*player)->tick_at(1e9);
+  ASSERT_TRUE(last) << last.error().text;
+  EXPECT_NEAR(last->ledger.removed, removed, 1e-15);
+  auto bone = workshop::bone_of(**player, {}, quiet);
+  ASSERT_TRUE(bone) << bone.error().text;
+  auto again = sim::replay(**player, std::move(*bone), quiet);
+  ASSERT_TRUE(again) << again.error().text;
+  EXPECT_FALSE(again->first_different_tick) << again->difference;
+  EXPECT_EQ(again->ticks, (*player)->end_tick());
+  EXPECT_EQ(again->gaps, 0U) << again->difference;
 }
 
 TEST_F(Kept, AnOlderAccountIsStillRead) {

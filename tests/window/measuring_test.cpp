@@ -110,7 +110,7 @@ TEST_F(MeasuringWindow, TwoClicksGiveTheirDistanceNothingIsCutAndEscapeEndsIt) {
                    {"the thickness' turn", says("hick"), [] { press(SDLK_ESCAPE); }},
                    {"its end", says("ended"), [&] {
                       still_there = desk_->page == Page::milling;
-                      press(SDLK_q);
+                      leave_work();
                     }}});
   ASSERT_TRUE(std::isfinite(truth)) << "a click beside the bone: the test shows nothing";
   EXPECT_GT(truth, 1e-3);

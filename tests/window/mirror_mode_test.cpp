@@ -112,7 +112,7 @@ TEST_F(MirrorWindow, IsSwitchedOnSeenToldCutAcrossAndUndone) {
            {"off", [&] { return !scene.mirrored; }, {}},
            {"nothing of it left", looks(3), [&] {
               EXPECT_FALSE(scene.mirrored);
-              press(SDLK_q);
+              leave_work();
             }}});
   EXPECT_GT(cut.first, 1) << "nothing was cut there: the test shows nothing";
   EXPECT_GT(cut.second, 1) << "nothing was cut across";

@@ -99,7 +99,7 @@ class Modes : public Window {
 
 TEST_F(Modes, AnExamUndoesBringsBackAndShowsNothing) {
   auto steps = refused_keys();
-  steps.push_back({"refused", told(Word::refused_exam), [] { press(SDLK_q); }});
+  steps.push_back({"refused", told(Word::refused_exam), [] { leave_work(); }});
   const Played exam = play(record::Mode::exam, std::move(steps));
   for (const tick::CommandKind kind : kBack)
     EXPECT_EQ(exam.commands.count(kind), 0U) << static_cast<int>(kind);
@@ -119,7 +119,7 @@ TEST_F(Modes, AnExamUndoesBringsBackAndShowsNothing) {
 // The same keys; so the test above can fail.
 TEST_F(Modes, FreeWorkDoesAllThat) {
   auto steps = refused_keys();
-  steps.push_back({"done", looks(3), [] { press(SDLK_q); }});
+  steps.push_back({"done", looks(3), [] { leave_work(); }});
   const Played freely = play(record::Mode::free, std::move(steps));
   for (const tick::CommandKind kind : kBack)
     EXPECT_GT(freely.commands.count(kind), 0U) << static_cast<int>(kind);
@@ -136,7 +136,7 @@ TEST_F(Modes, LearningHasStepsAndALitTargetAndTheRecordingCountsBoth) {
                                  {"lit", looks(3), [] { press(SDLK_a); }},
                                  {"dark", looks(3), [] { press(SDLK_j); }},
                                  {"the second step", looks(3), [] { press(SDLK_j); }},
-                                 {"all done", told(Word::steps_all_done), [] { press(SDLK_q); }}});
+                                 {"all done", told(Word::steps_all_done), [] { leave_work(); }}});
   const std::vector<std::string> in_order = {
       "step_begun groove",         "help_shown steps", "help_shown target groove",
       "help_hidden target groove", "step_done groove", "step_done second-groove"};
@@ -176,8 +176,8 @@ TEST(Scores, TheWindowKnowsNothingOfThemButWhetherAStepIsDone) {
       EXPECT_EQ(text.find(" scored("), text.npos) << entry.path();
       EXPECT_EQ(text.find("Scored"), text.npos) << entry.path();
     }
-    // kept_sessions.cpp asks whether there is a rubric
-    if (entry.path().filename() != "kept_sessions.cpp") {
+    // autosave.cpp asks whether there is a rubric
+    if (entry.path().filename() != "autosave.cpp") {
       EXPECT_EQ(text.find("\"burr/report/"), text.npos) << entry.path();
     }
     if (folder != "shell") {  // the order of pages

@@ -74,7 +74,7 @@ TEST_F(NoticeWindow, ALongLineCoversNeitherTheViewsNorTheScaleBar) {
            {"told", [&] { return desk_->status_text.find(text) != std::string::npos; }, nullptr},
            {"a picture", looks(5), [&] {
               after = desk_->renderer().shown();
-              press(SDLK_q);
+              leave_work();
             }}});
   ASSERT_EQ(before.width, 1280);
   // the hint of the beginning has gone, and the text is there

@@ -9,6 +9,7 @@
 #include "burr/record/player.h"
 #include "burr/render/pick.h"
 #include "burr/rt/changed_bits.h"
+#include "burr/sim/replay.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
 #include "support/test_places.h"
@@ -35,7 +36,7 @@ TEST_F(Window, ChangesTheBurrByKeyAndTheServoHasIt) {
                       press(SDLK_RIGHTBRACKET);
                     }},
                    {"the larger one again", [&] { return session.burr_radius() > smaller; },
-                    [] { press(SDLK_q); }}});
+                    [] { leave_work(); }}});
   EXPECT_NEAR(smaller, 2.75e-3, 1e-9);
   EXPECT_NEAR(session.servo().settings().burr.radius, first, 1e-9);
 }
@@ -55,7 +56,7 @@ TEST_F(Window, TakesADiamondBurrByKeyAndBack) {
            {"another burr is seen", looks(10), [&] {
               EXPECT_TRUE(ready->scene.burr.diamond);
               EXPECT_GT(differ(fluted, desk_->renderer().shown(), 120, 40, 1040, 600), 60);
-              press(SDLK_q);
+              leave_work();
             }}});
   EXPECT_EQ(ready->session->servo().settings().burr.kind, tool::BurrKind::diamond);
 }
@@ -92,7 +93,7 @@ TEST_F(Window, UndoByKeyBringsTheBoneBackToTheBit) {
         }},
        {"the bone to come back", [&] { return count() > cut; }, [&] { lifted = Clock::now(); }},
        {"all of it", [&] { return Clock::now() - lifted > std::chrono::seconds(1); },
-        [] { press(SDLK_q); }}});
+        [] { leave_work(); }}});
   EXPECT_GT(cut, 30) << "nothing was cut: the test shows nothing";
   EXPECT_EQ(session.bone().content_hash(), before);
   EXPECT_GT(session.outcome().peak_force, 0);
@@ -112,7 +113,7 @@ TEST_F(Window, TabHidesThePanelsAndShowsThemAgain) {
                    {"no panels", looks(5), picture(without)},
                    {"panels", looks(5), [&] {
                       again = desk_->renderer().shown();
-                      press(SDLK_ESCAPE);
+                      leave_work();
                     }}});
   ASSERT_EQ(with.width, 1280);
   ASSERT_EQ(with.height, 720);
@@ -140,7 +141,7 @@ TEST_F(Window, ShowsWhatIsToBeDoneUntilTheKeyHidesIt) {
                  {"the task", looks(5),
                   [&] {
                     again = desk_->renderer().shown();
-                    press(SDLK_ESCAPE);
+                    leave_work();
                   }}},
                 desk_->status_text);
   desk_->after_frame = [&script] { script.look(); };
@@ -172,7 +173,7 @@ TEST_F(Window, ShowsSlicesThroughTheTipThatCanBeHidden) {
                     }},
                    {"no slices", looks(5), [&] {
                       without = desk_->renderer().shown();
-                      press(SDLK_ESCAPE);
+                      leave_work();
                     }}});
   EXPECT_GT(differ(with, without, 1080, 20, 1270, 600), 10'000);
   EXPECT_GT(differ(with, nearer, 1080, 20, 1270, 600), 100);
@@ -200,7 +201,7 @@ TEST_F(Window, MakesBoneSeeThroughInStepsAndWholeAgain) {
                    {"85 %", is(0.15), step(KMOD_LSHIFT)},
                    {"65 % again", is(0.35), step(KMOD_NONE)},
                    {"85 % again", is(0.15), step(KMOD_NONE)},
-                   {"whole", is(1), [] { press(SDLK_ESCAPE); }}});
+                   {"whole", is(1), [] { leave_work(); }}});
   EXPECT_EQ(opacities, (std::vector<double>{1, 0.6, 0.35, 0.15, 0.35, 0.15}));
   render::Scene scene;
   EXPECT_EQ(step_see_through(scene, false), "Bone transparent: 40 %");
@@ -239,7 +240,7 @@ TEST_F(Window, LiftsTheBurrWhenTheMouseComesOverAPanel) {
                     }},
                    {"the lift over the tools", pedal(0), [] { move_to(640, 345); }},
                    {"the press again", pedal(1), [] { press(SDLK_SPACE); }},
-                   {"the lift by the space bar", pedal(0), [] { press(SDLK_q); }}});
+                   {"the lift by the space bar", pedal(0), [] { leave_work(); }}});
   EXPECT_TRUE(bone_there) << "no bone behind the panel: the test shows nothing";
 }
 
@@ -267,7 +268,7 @@ TEST_F(Window, OfTheLeftHandedMillsWithTheRightButton) {
                       static_cast<void>(session.view(row));
                       return row.hand.pedal == 1;
                     },
-                    [] { press(SDLK_q); }}});
+                    [] { leave_work(); }}});
   EXPECT_FALSE(left_pressed);
 }
 
@@ -279,7 +280,7 @@ TEST_F(Window, WritesChangedSettingsDownAndSpeaksTheLanguageAtOnce) {
                    {"the page", looks(5), [] { click(1280 / 2 - 450 + 28 + 190 + 105, 158); }},
                    {"the list", looks(5), [] { click(1280 / 2 - 450 + 28 + 190 + 50, 233); }},
                    {"the change", [] { return spoken().code == "sv"; }, [] { press(SDLK_ESCAPE); }},
-                   {"the page to go", looks(5), [] { press(SDLK_q); }}});
+                   {"the page to go", looks(5), [] { leave_work(); }}});
   const SettingsRead read = read_settings(folder_ / "config" / "settings.toml");
   EXPECT_TRUE(read.troubles.empty());
   EXPECT_EQ(read.settings.language, "sv");
@@ -293,24 +294,24 @@ TEST_F(Window, ChangesWhatAGamepadAndAPedalDoOnTheOtherLeafOfTheSettings) {
   const auto none = [] {};
   mill_by(*ready, {{"the first picture", looks(3), [] { press(SDLK_F2); }},
                    {"the page", looks(5), [] { click(1280 / 2 + 200, 83); }},
-                   {"its other leaf", looks(5), [] { click(600, 160); }},
+                   {"its other leaf", looks(5), [] { click(520, 160); }},
                    {"the pace", [&] { return now.pad_pace > 2; }, none},
-                   {"the next slider", looks(3), [] { click(600, 197); }},
+                   {"the next slider", looks(3), [] { click(520, 197); }},
                    {"the rest of a stick", [&] { return now.pad_dead > 0.5; }, none},
-                   {"the next slider", looks(3), [] { click(1050, 160); }},
+                   {"the next slider", looks(3), [] { click(970, 160); }},
                    {"the mill", [&] { return now.pedal_mill > 20; }, none},
-                   {"the next slider", looks(3), [] { click(1050, 197); }},
+                   {"the next slider", looks(3), [] { click(970, 197); }},
                    {"the burr", [&] { return now.pedal_burr > 20; }, none},
-                   {"the next slider", looks(3), [] { click(1050, 234); }},
+                   {"the next slider", looks(3), [] { click(970, 234); }},
                    {"the coolant", [&] { return now.pedal_coolant > 20; }, none},
-                   {"the next slider", looks(3), [] { click(1050, 271); }},
+                   {"the next slider", looks(3), [] { click(970, 271); }},
                    {"the tool", [&] { return now.pedal_tool > 20; }, none},
-                   {"the next slider", looks(3), [] { click(1050, 308); }},
+                   {"the next slider", looks(3), [] { click(970, 308); }},
                    {"the clutch", [&] { return now.pedal_clutch > 20; }, none},
-                   {"the next slider", looks(3), [] { click(1050, 345); }},
+                   {"the next slider", looks(3), [] { click(970, 345); }},
                    {"the axis", [&] { return now.pedal_rest > 0.9; }, [] { move_to(1200, 600); }},
                    {"the slider let go", looks(5), [] { press(SDLK_ESCAPE); }},
-                   {"the page to go", looks(5), [] { press(SDLK_q); }}});
+                   {"the page to go", looks(5), [] { leave_work(); }}});
   const SettingsRead read = read_settings(folder_ / "config" / "settings.toml");
   EXPECT_TRUE(read.troubles.empty());
   EXPECT_NEAR(read.settings.pad_pace, now.pad_pace, 1e-6);
@@ -336,40 +337,47 @@ TEST_F(Window, TakesADroppedScanMillsItComesBackAndGoesOnWhereItWas) {
   pages_by({{"the start page", on(Page::start), [&] { drop(file); }},
             {"its import page", on(Page::import), [] { press(SDLK_RETURN); }},
             {"milling", on(Page::milling), mills},
-            {"a while", a_while, [] { press(SDLK_q); }},
+            {"a while", a_while, [] { leave_work(); }},
             {"the start page again", on(Page::start), nullptr},
             {"its first pictures", looks(5), [] { click(938, 354); }},  // the first session
             {"milling again", on(Page::milling), mills},
             {"a while", a_while, [] { press(SDLK_s); }},
-            {"the word about it", looks(5), [] { press(SDLK_q); }},
+            {"the word about it", looks(5), [] { leave_work(); }},
             {"the start page at last", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_EQ(desk_->message, "");
   const std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
-  ASSERT_EQ(kept.size(), 2U) << "nothing was cut: the test shows nothing";
-  EXPECT_TRUE(kept[0].clean && kept[1].clean);
+  ASSERT_EQ(kept.size(), 1U) << "one session, one row";
+  EXPECT_TRUE(kept[0].clean);
   EXPECT_TRUE(kept[0].keep);
-  EXPECT_FALSE(kept[1].keep);
-  EXPECT_GT(kept[1].removed_mm3, 0);
-  for (const KeptSession& one : kept) {
-    EXPECT_EQ(one.title.find("Svensson"), std::string::npos) << one.title;
-    EXPECT_EQ(one.file.string().find("Svensson"), std::string::npos);
-  }
+  EXPECT_GT(kept[0].removed_mm3, 0) << "nothing was cut: the test shows nothing";
+  EXPECT_TRUE(fs::exists(picture_of(kept[0].file)));
+  EXPECT_EQ(kept[0].title.find("Svensson"), std::string::npos) << kept[0].title;
+  EXPECT_EQ(kept[0].file.string().find("Svensson"), std::string::npos);
   ASSERT_EQ(recent(folder_ / "state").size(), 1U);
   EXPECT_EQ(recent(folder_ / "state")[0].title.find("Svensson"), std::string::npos);
 
-  // the second began with the bone that the first ended with
+  // the second part began with the bone that the first ended with
   NoProgress quiet;
-  auto first = record::Player::open(kept[1].file.string());
-  auto second = record::Player::open(kept[0].file.string());
-  ASSERT_TRUE(first && second);
+  auto player = record::Player::open(kept[0].file.string());
+  ASSERT_TRUE(player) << player.error().text;
+  ASSERT_EQ((*player)->continued().size(), 1U);
+  const record::SessionInfo& second = (*player)->continued()[0];
   scenario::BoneRecipe given;
   given.source = file.string();
-  auto bone = workshop::bone_of(**first, given, quiet);
+  auto bone = workshop::bone_of(**player, given, quiet);
   ASSERT_TRUE(bone) << bone.error().text;
   const std::uint64_t uncut = (*bone)->content_hash();
-  ASSERT_TRUE((*first)->bone_at(1e9, **bone));
+  EXPECT_EQ(uncut, (*player)->info().volume.content_hash);
+  const double rate = (*player)->info().rate_hz;
+  ASSERT_TRUE((*player)->bone_at(static_cast<double>(second.first_tick - 1) / rate, **bone));
   EXPECT_NE((*bone)->content_hash(), uncut);
-  EXPECT_EQ((*bone)->content_hash(), (*second)->info().volume.content_hash);
+  EXPECT_EQ((*bone)->content_hash(), second.volume.content_hash);
+  auto fresh = workshop::bone_of(**player, given, quiet);
+  ASSERT_TRUE(fresh);
+  const auto again = sim::replay(**player, std::move(*fresh), quiet);
+  ASSERT_TRUE(again) << again.error().text;
+  EXPECT_FALSE(again->first_different_tick) << again->difference;
+  EXPECT_EQ(again->gaps, 0U) << again->difference;
 }
 
 TEST_F(Window, TellsWhatIsWrongWithABrokenFileAndGoesOn) {
@@ -387,7 +395,7 @@ TEST_F(Window, TellsWhatIsWrongWithABrokenFileAndGoesOn) {
                drop(scan());
              }},
             {"its import page", on(Page::import), [] { press(SDLK_RETURN); }},
-            {"milling all the same", on(Page::milling), [] { press(SDLK_q); }},
+            {"milling all the same", on(Page::milling), [] { leave_work(); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_NE(told.find("broken.nrrd"), std::string::npos) << told;
   EXPECT_EQ(desk_->message, "") << "an old sentence stayed";
@@ -427,7 +435,7 @@ TEST_F(Window, OffersASessionThatEndedUnexpectedlyFirst) {
                move_to(640, 360);
                press(SDLK_SPACE);
              }},
-            {"some pictures", looks(90), [] { press(SDLK_q); }},
+            {"some pictures", looks(90), [] { leave_work(); }},
             {"the start page again", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   std::vector<KeptSession> kept = kept_sessions(folder_ / "state");
   ASSERT_EQ(kept.size(), 1U) << "nothing was cut: the test shows nothing";

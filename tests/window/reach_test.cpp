@@ -78,7 +78,7 @@ TEST_F(ReachWindow, TheMouseOpensTheMenuAndTakesAnItem) {
            {"the menu is closed, not the page", looks(3), [] { press(SDLK_6); }},
            {"told",
             [this] { return desk_->status_text.find(word(Word::suction_on)) != std::string::npos; },
-            [] { press(SDLK_q); }}});
+            [] { leave_work(); }}});
   EXPECT_EQ(ready->scene.camera.distance, before);
 }
 
@@ -104,7 +104,7 @@ TEST_F(NamesWindow, ANameIsPinnedUnderThePointerAndTheListOpens) {
        {"nothing there", looks(12), [] { press(SDLK_z); }},
        {"told",
         [this] { return desk_->status_text.find(word(Word::names_nothing)) != std::string::npos; },
-        [] { press(SDLK_q); }}});
+        [] { leave_work(); }}});
   // a plate at the left or at the right edge of the picture
   EXPECT_GT(differ(bare, pinned, 100, 10, 260, 600) + differ(bare, pinned, 900, 10, 1060, 600),
             300);

@@ -59,6 +59,7 @@ class ReviewWindow : public Window {
     PagesOptions options;
     options.sound = false;
     options.led.identity.mode = mode;
+    options.mode_given = true;
     options.led.identity.learner = learner_;
     const Status done = run_pages(*desk_, options);
     desk_->after_frame = {};
@@ -352,7 +353,7 @@ TEST_F(ReviewWindow, AKilledSessionIsOfferedAgainAndMarkedAsUnfinished) {
            {"the start page", on(Page::start), nullptr},
            {"a picture", looks(5), [] { click(900, 354); }},  // goes on with it
            {"milling", on(Page::milling), nullptr},
-           {"a picture", looks(5), [] { press(SDLK_q); }},
+           {"a picture", looks(5), [] { leave_work(); }},
            {"the start page", on(Page::start), [] { press(SDLK_ESCAPE); }}});
   EXPECT_TRUE(told_unfinished);
 }

@@ -142,13 +142,13 @@ TEST_F(SavedViewsWindow, ComeBackByKeyAndInTheNextSession) {
             }},
            {"the one before", looks(3), [&] {
               EXPECT_TRUE(same(scene.camera, kept));
-              press(SDLK_q);
+              leave_work();
             }}});
   EXPECT_FALSE(same(turned, kept)) << "nothing was turned: the test shows nothing";
   auto later = block();
   ASSERT_TRUE(later) << later.error().text;
   mill_by(*later, {{"the first picture", looks(3), [] { press(SDLK_F6); }},
-                   {"the view of the first session", looks(3), [] { press(SDLK_q); }}});
+                   {"the view of the first session", looks(3), [] { leave_work(); }}});
   EXPECT_LT((later->scene.camera.target - kept.target).norm(), 1e-9);
   EXPECT_EQ(later->scene.camera.azimuth, kept.azimuth);
   EXPECT_EQ(later->scene.camera.elevation, kept.elevation);

@@ -80,7 +80,7 @@ TEST_F(Survival, ResizedWhileMillingItDrawsTheNewSizeAndTheHandGoesOn) {
               return desk_->renderer().width() == 1280 && tick(session) > then &&
                      row_.ledger.removed > 0;
             }),
-            [] { press(SDLK_q); }}});
+            [] { leave_work(); }}});
   EXPECT_EQ(small.width, 900);
   EXPECT_EQ(small.height, 600);
   EXPECT_EQ(large.width, 2560);
@@ -117,7 +117,7 @@ TEST_F(Survival, PutAwayItLiftsTheBurrDrawsNothingAndComesBack) {
                     }},
                    {"a picture", looks(5), [&] {
                       back = desk_->renderer().shown();
-                      press(SDLK_q);
+                      leave_work();
                     }}});
   EXPECT_EQ(differ(away, later, 0, 0, 1280, 720), 0) << "drawn though nobody sees it";
   EXPECT_GT(differ(later, back, 100, 650, 1180, 712), 10'000) << "the panels are hidden now";
@@ -136,7 +136,7 @@ TEST_F(Survival, LettersThatGrowWhileMillingAreDrawnLarger) {
                     }},
                    {"larger letters", looks(3), [&] {
                       after = desk_->ui().unit();
-                      press(SDLK_q);
+                      leave_work();
                     }}});
   EXPECT_GT(after, 1.5F * before);
 }
@@ -172,7 +172,7 @@ TEST_F(Survival, AfterTheGraphicsCardIsLostTheSamePictureIsThereAgainAndBoneIsCu
                     }},
                    {"bone to be cut",
                     pressing_until([&] { return tick(session) > then && row_.ledger.removed > 0; }),
-                    [] { press(SDLK_q); }}});
+                    [] { leave_work(); }}});
   EXPECT_EQ(desk_->renewed(), 1);
   ASSERT_EQ(after.width, before.width);
   EXPECT_TRUE(something_in(before, 300, 100, 1000, 600)) << "no bone: the test shows nothing";
@@ -213,7 +213,7 @@ TEST_F(Survival, AFullDiskIsSaidInTheWindowAndTheSessionGoesOn) {
        {"a second more", [&] { return Clock::now() - full > std::chrono::seconds(1); },
         [&] {
           ::setrlimit(RLIMIT_FSIZE, &old);
-          press(SDLK_q);
+          leave_work();
         }},
        {"the start page again", on(Page::start), nullptr},
        {"its sentence", looks(3), [&] {

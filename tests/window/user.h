@@ -44,6 +44,11 @@ inline void press(SDL_Keycode code, Uint16 held = KMOD_NONE) {
   event.type = SDL_KEYUP;
   SDL_PushEvent(&event);
 }
+// Leaves the page for milling: the second Q answers the question of the first.
+inline void leave_work() {
+  press(SDLK_q);
+  press(SDLK_q);
+}
 inline void move_to(int x, int y) {
   SDL_Event event = {};
   event.type = SDL_MOUSEMOTION;

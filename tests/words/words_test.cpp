@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "burr/words/case_name.h"
+
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace burr::words {
@@ -46,6 +50,50 @@ TEST(Words, AreShownInTheLanguageChosenAndFilledIn) {
   speak("klingon");
   EXPECT_EQ(spoken().code, "en");
   EXPECT_STREQ(word(Word::undo), "Undo");
+}
+
+// By POSIX: LC_ALL goes before LC_MESSAGES, and that before LANG; an empty one counts as not set.
+TEST(Words, SpeakTheLanguageOfTheComputer) {
+  EXPECT_EQ(language_for("", "", "sv_SE.UTF-8"), "sv");
+  EXPECT_EQ(language_for("", "de_AT@euro", "sv_SE.UTF-8"), "de");
+  EXPECT_EQ(language_for("C", "de_DE", "sv_SE"), "en");
+  EXPECT_EQ(language_for("POSIX", "", "de"), "en");
+  EXPECT_EQ(language_for("", "", "C.UTF-8"), "en");
+  EXPECT_EQ(language_for("", "", "fr_FR.UTF-8"), "en") << "burr does not speak it";
+  EXPECT_EQ(language_for("", "", "DE"), "de");
+  EXPECT_EQ(language_for("", "", ""), "en");
+  EXPECT_EQ(language_for("", "", "deutsch"), "en");
+}
+
+// A text that is the same in all languages was forgotten, unless it is one that all three write so.
+TEST(Words, AreNotTheSameInAllLanguages) {
+  const std::set<std::string> alike = {"Original", "Hand", "axial", "sagittal", "Film",
+                                       "Stereo  [F3]", "Headset (OpenXR)", "Pedal", "Headset: {}",
+                                       "Voxel",
+                                       // of numbers and signs alone
+                                       "x{:.1f}   {:.0f} mm", "W {:.0f}  L {:.0f}", "{} {}"};
+  for (std::size_t n = 0; n < static_cast<std::size_t>(Word::count_); ++n) {
+    const std::string& text = languages().front().texts[n];
+    const bool same = std::all_of(languages().begin(), languages().end(),
+                                  [&](const Language& one) { return one.texts[n] == text; });
+    EXPECT_TRUE(!same || alike.contains(text)) << "\"" << text << "\"";
+  }
+}
+
+// What was opened is named in the user's language, and nothing of the library's own words is left.
+TEST(Words, NameWhatWasOpened) {
+  for (const auto& [code, scan, tooth, recording] :
+       {std::tuple{"en", "DICOM scan", "Tooth", "recording"},
+        {"sv", "DICOM-skanning", "Tand", "inspelning"},
+        {"de", "DICOM-Scan", "Zahn", "Aufzeichnung"}}) {
+    speak(code);
+    EXPECT_EQ(name_of_work("DICOM scan"), scan);
+    EXPECT_EQ(name_of_work("tooth"), tooth);
+    EXPECT_EQ(name_of_work("tooth?graded"), tooth);
+    EXPECT_EQ(name_of_work("recording"), recording);
+    EXPECT_EQ(name_of_work("My own case"), "My own case");
+  }
+  speak("en");
 }
 
 TEST(Words, TakeLettersNumbersAndTexts) {

@@ -80,6 +80,7 @@ class Stages final : public Progress {
   void report(double fraction, std::string_view stage) override {
     app::progress().report(fraction, stage);
     if (meanwhile) meanwhile();
+    if (const auto numbered = base::numbered_stage(stage)) stage = numbered->words;
     if (stage == stage_) return;
     end();
     stage_ = stage;

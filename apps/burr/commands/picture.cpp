@@ -56,7 +56,8 @@ Status run(const Options& options) {
       check_outputs({options.volume.source, options.volume.labels, options.volume.materials},
                     {{"--out", options.out, {".png"}}});
   if (!possible) return possible;
-  auto opened = workshop::open_bone(options.volume, progress(), nullptr, !options.greys.empty());
+  base::OneBar bar(progress(), workshop::steps_to_picture(options.volume));
+  auto opened = workshop::open_bone(options.volume, bar, nullptr, !options.greys.empty());
   if (!opened) return opened.error();
   const auto view = view_of(options, opened->greys);
   if (!view) return view.error();
@@ -69,7 +70,7 @@ Status run(const Options& options) {
   if (!place) return place.error();
   if (at) place->at = *at;
   render::Scene scene = workshop::scene_of_work(bone, kBurr, place->at, -place->into);
-  const Status skinned = render::skin_bone(scene, bone, 2, progress());
+  const Status skinned = render::skin_bone(scene, bone, 2, bar);
   if (!skinned) return skinned;
   ViewOptions shown = *view;
   if (!at) shown.opening = workshop::opening_of_phantom(options.volume.source);

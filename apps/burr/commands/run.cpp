@@ -112,6 +112,9 @@ Result<Closed> mill_into_folder(Desk& desk, WindowSession& ready, const Options&
   WindowOptions with_recording = window;
   with_recording.warning = [&recording] { return recording.trouble(); };
   with_recording.keep = [] { return true; };  // this run is recorded already
+  with_recording.left_as = [&recording] {
+    return recording.trouble().empty() ? Word::leave_told_folder : Word::leave_told_lost;
+  };
   with_recording.diary = recording.diary();
   with_recording.done_ends = ready.work_case && has_marks(*ready.work_case);
   with_recording.film_of = [&]() -> std::optional<FilmSource> {
@@ -160,7 +163,7 @@ Result<Closed> session_in_window(Desk& desk, const Options& options) {
                                 .folder = options.out,
                                 .screenshot = options.screenshot,
                                 .sound = !options.no_sound};
-  return options.out.empty() ? mill_and_keep(desk, *loaded, options.work, false, window)
+  return options.out.empty() ? mill_and_keep(desk, *loaded, options.work, nullptr, window)
                              : mill_into_folder(desk, *loaded, options, window);
 }
 
@@ -222,7 +225,7 @@ Status run_in_window(Options options, RunReport& report) {
   (*desk)->headset_wanted = (*desk)->headset_wanted || options.xr;
   if (options.work.volume.source.empty())
     return run_pages(**desk, {options.seconds, options.out, options.screenshot, !options.no_sound,
-                              options.work});
+                              options.work, options.mode_given});
   for (;;) {
     const auto left = session_in_window(**desk, options);
     if (!left) return left.error();
@@ -332,7 +335,9 @@ void add(CLI::App& app, Todo& todo) {
                       "(cmi5), in quotes; docs/teach/xapi.md lists what burr reports to it");
   add_bone_option(*command, options->work.bone);
   add_volume_options(*command, options->work.volume);
-  command->callback([options, touch, &todo] {
+  const auto* mode = command->get_option("--mode");
+  command->callback([options, touch, mode, &todo] {
+    options->mode_given = !mode->empty();
     // two tools feel each other where all their parts do
     if (!options->work.tool.second.empty() && touch->empty())
       options->work.touch = haptics::Method::shaft;

@@ -22,6 +22,7 @@ struct RunOptions {
   std::string out, screenshot, store, live, live_token, station, cmi5;
   double seconds = 0;
   bool headless = false, no_sound = false, xr = false, force = false;
+  bool mode_given = false;  // by the command line, whatever the user chose last
 };
 
 // Before the work: the files that the session writes. burr-out, which nobody named, is replaced.

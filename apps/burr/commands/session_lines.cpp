@@ -60,6 +60,9 @@ std::string session_text(record::Player& player) {
         fmt::format("  second hand: {}, {}\n", base::printable(second->device),
                     second->tools.empty() ? "a suction tube that feels the bone"
                                           : "tool " + base::printable(second->tools.front().name));
+  for (const record::SessionInfo& part : player.continued())
+    text += fmt::format("  left and continued at {:.1f} s\n",
+                        static_cast<double>(part.first_tick) / player.info().rate_hz);
   if (player.has_course())
     text += fmt::format("  ended: {}; {}, {}\n", ending_text(player),
                         counted(player.views().size(), "view"), course_text(player.course()));
@@ -86,6 +89,9 @@ nlohmann::json session_json(record::Player& player) {
            {"accepted_labels", who->accepted_labels}};
     if (!who->learner.empty()) one["learner"] = who->learner;
   }
+  out["continued_at_s"] = nlohmann::json::array();
+  for (const record::SessionInfo& part : player.continued())
+    out["continued_at_s"].push_back(static_cast<double>(part.first_tick) / player.info().rate_hz);
   if (const auto& shaft = player.info().shaft)
     out["shaft"] = {{"radius_m", shaft->radius}, {"length_m", shaft->length}};
   if (const auto ending = player.ending()) out["ending"] = record::word_of(*ending);

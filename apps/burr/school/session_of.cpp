@@ -132,6 +132,8 @@ school::SessionRecord record_of(const report::Scored& scored) {
     out.device_max_n = most->second;
   out.voxel_um = 1e6 * info.volume.grid.voxel;
   out.engine = info.burr_version;
+  for (const record::SessionInfo& part : player.continued())
+    if (!part.goes_on_with.empty()) out.goes_on_with.push_back(part.goes_on_with);
   for (const auto& [part, total] : {std::pair{Part::product, &scored.score.product},
                                     std::pair{Part::process, &scored.score.process}})
     if (total->items > 0) out.scores.push_back(score_of(scored, part, *total));

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <string>
 
+#include "burr/base/one_bar.h"
 #include "shared/interrupt.h"
 #include "shared/subcommand.h"
 
@@ -18,16 +19,19 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// On a terminal one line that is rewritten, with the remaining time; elsewhere a line per stage.
+// On a terminal one line that is rewritten, with the remaining time; elsewhere a line per stage. The
+// numbered stages of one work ("3 of 5: smoothing") share a line and a bar.
 class Console final : public Progress {
  public:
   void report(double fraction, std::string_view stage) override {
     if (quiet()) return;
     const bool fresh = stage != stage_;
     if (fresh) {
-      finish_line();
+      if (!goes_on(stage)) {
+        finish_line();
+        started_ = Clock::now();
+      }
       stage_ = stage;
-      started_ = Clock::now();
       shown_ = {};
     }
     if (!terminal_) {
@@ -55,6 +59,11 @@ class Console final : public Progress {
   ~Console() override { finish_line(); }
 
  private:
+  // The same work, and no step of it that was there before.
+  [[nodiscard]] bool goes_on(std::string_view stage) const {
+    const auto was = base::numbered_stage(stage_), is = base::numbered_stage(stage);
+    return was && is && open_ && was->of == is->of && was->number <= is->number;
+  }
   void finish_line() {
     if (open_) fmt::print(stderr, "\n");
     open_ = false;

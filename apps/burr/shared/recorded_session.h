@@ -13,6 +13,7 @@
 #include "burr/base/result.h"
 #include "burr/importing/import.h"
 #include "burr/record/diary.h"
+#include "burr/record/earlier_part.h"
 #include "burr/record/identity.h"
 #include "burr/record/recorder.h"
 #include "burr/scenario/case.h"
@@ -34,6 +35,8 @@ class Recording {
   void remember_scan_in(std::string list) { scan_list_ = std::move(list); }
   // Call it before start(): mode, learner and attempt of this session.
   void belongs_to(record::Identity identity) { identity_ = std::move(identity); }
+  // Call it before start(): the recording that this one goes on with, in the same file.
+  void goes_on_with(std::shared_ptr<const record::EarlierPart> part) { earlier_ = std::move(part); }
   // motion: burr's own name, "pocket" or "hand path". embed: writes the bone into the file. spared:
   // tissues that the case forbids to cut; none: those that the table of tissues marks. work_case:
   // written into the file, so that a score can be computed from it.
@@ -63,6 +66,7 @@ class Recording {
   std::string file_, scan_list_;
   bool stopped_ = false, ending_ = false;
   record::Identity identity_;
+  std::shared_ptr<const record::EarlierPart> earlier_;
   std::unique_ptr<record::Recorder> recorder_;
   std::optional<record::Diary> diary_;
   double rate_hz_ = 0;

@@ -14,6 +14,7 @@
 #include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
+#include "burr/record/identity.h"
 #include "burr/workshop/hand_device.h"
 #include "shared/word_names.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 1U << 16;  // far more than settings need  [byte]
 
-// One line of the file. Exactly one of the five pointers is set.
+// One line of the file. Exactly one of the six pointers is set.
 struct Field {
   const char *key, *means;
   double Settings::*number = nullptr;
@@ -31,10 +32,15 @@ struct Field {
   double least = 0, most = 0;
   render::Stereo Settings::*stereo = nullptr;
   std::string Settings::*device = nullptr;
+  std::string Settings::*mode = nullptr;
 };
 
 constexpr std::array kFields = {
-    Field{"language", "of the window", nullptr, nullptr, &Settings::language},
+    Field{"language",
+          "of the window; empty: that of your computer (LC_ALL, LC_MESSAGES, LANG), or English",
+          nullptr, nullptr, &Settings::language},
+    Field{"mode", "what the next session is for, as chosen last on the start page", nullptr,
+          nullptr, nullptr, 0, 0, nullptr, nullptr, &Settings::mode},
     Field{"scale", "size of letters and panels, on top of the display's own scale",
           &Settings::scale, nullptr, nullptr, 0.5, 3},
     Field{"left_handed", "the right button mills and the left one turns; the handle leans left",
@@ -132,6 +138,10 @@ std::string take(const Field& field, const toml::node& node, Settings& settings)
       return fmt::format("must be empty, or one of {}, with :WHICH where there are several",
                          workshop::kinds_known());
     settings.*field.device = *value;
+  } else if (field.mode != nullptr) {
+    const std::string value = node.value_exact<std::string>().value_or("");
+    if (!record::mode_of(value)) return "must be \"free\", \"learn\", \"practise\" or \"exam\"";
+    settings.*field.mode = value;
   } else if (field.stereo != nullptr) {
     const std::string value = node.value_exact<std::string>().value_or("");
     const auto* const found = std::find(std::begin(kStereoNames), std::end(kStereoNames), value);
@@ -141,8 +151,9 @@ std::string take(const Field& field, const toml::node& node, Settings& settings)
     settings.*field.stereo = static_cast<render::Stereo>(found - std::begin(kStereoNames));
   } else {
     const auto value = node.value_exact<std::string>();
-    const std::string code = code_of_language(value.value_or(""));
-    if (language_of(code) == nullptr) return "must be one of " + languages_known();
+    const std::string code = code_of_language(value.value_or("-"));
+    if (!code.empty() && words::language_of(code) == nullptr)
+      return "must be empty, or one of " + languages_known();
     settings.*field.language = code;
   }
   return {};
@@ -196,6 +207,8 @@ std::string settings_text(const Settings& settings) {
                           settings.*field.number);
     else if (field.yes != nullptr)
       text += fmt::format("\n{} = {}\n", field.key, settings.*field.yes);
+    else if (field.mode != nullptr)
+      text += fmt::format("\n{} = \"{}\"\n", field.key, settings.*field.mode);
     else if (field.device != nullptr)
       text += fmt::format("\n{} = {}\n", field.key, base::toml_text(settings.*field.device));
     else if (field.stereo != nullptr)
@@ -227,6 +240,10 @@ Status write_settings(const Settings& settings, const std::filesystem::path& pat
   if (!file) return file.error();
   file->write(settings_text(settings));
   return file->put_in_place();
+}
+
+std::string language_of(const Settings& settings) {
+  return settings.language.empty() ? language_of_environment() : settings.language;
 }
 
 SettingRange range_of(std::string_view key) {

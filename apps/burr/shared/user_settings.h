@@ -20,17 +20,19 @@
 namespace burr::app {
 
 struct Settings {
-  std::string language = "en";  // one of languages(): the name of its file in words/
-  double scale = 1;             // of letters and panels, in addition to the display's own scale
-  bool left_handed = false;     // the right button mills, the handle leans to the left
-  std::string device = {};      // that moves the burr, as after --device; empty: the mouse
-  double force_limit_n = 3.3;   // the user's own limit for the force on the hand
-  double press_mm = 4;          // depth of the press with the mouse at the start
-  double turn_pace = 1;         // speed of turning the view, by mouse and arrow keys
-  double zoom_pace = 1;         // speed of zooming, by wheel and two fingers
-  double pad_pace = 1;          // speed of the point that a gamepad or SpaceMouse moves
-  double pad_dead = 0.15;       // dead zone, as a share of a stick's way
-  double pedal_mill = 0;        // numbers of a pedal's buttons, from 0
+  // one of languages(): the name of its file in words/; empty: that of the environment
+  std::string language = {};
+  std::string mode = "free";   // of the next session, as record::word_of() says it
+  double scale = 1;            // of letters and panels, in addition to the display's own scale
+  bool left_handed = false;    // the right button mills, the handle leans to the left
+  std::string device = {};     // that moves the burr, as after --device; empty: the mouse
+  double force_limit_n = 3.3;  // the user's own limit for the force on the hand
+  double press_mm = 4;         // depth of the press with the mouse at the start
+  double turn_pace = 1;        // speed of turning the view, by mouse and arrow keys
+  double zoom_pace = 1;        // speed of zooming, by wheel and two fingers
+  double pad_pace = 1;         // speed of the point that a gamepad or SpaceMouse moves
+  double pad_dead = 0.15;      // dead zone, as a share of a stick's way
+  double pedal_mill = 0;       // numbers of a pedal's buttons, from 0
   double pedal_burr = 1;
   double pedal_coolant = 2;
   double pedal_tool = 4;
@@ -65,6 +67,9 @@ struct SettingsRead {
 // Makes the folder if needed. keep_old: the present file is first renamed to settings.toml.old.
 [[nodiscard]] Status write_settings(const Settings& settings, const std::filesystem::path& path,
                                     bool keep_old);
+
+// In which the window speaks.
+[[nodiscard]] std::string language_of(const Settings& settings);
 
 // The name used in the file: "line_interleaved".
 [[nodiscard]] const char* name_of(render::Stereo stereo);

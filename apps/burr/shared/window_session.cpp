@@ -84,6 +84,7 @@ Result<WindowSession> make_window_session(const WorkOptions& options,
   ready.title = options.title.empty() ? prepared.what : options.title;
   ready.what = prepared.what;
   ready.earlier = options.earlier;
+  ready.identity = options.identity;
   ready.work_case = options.work_case;
   auto lesson = lesson_of(options.work_case);
   if (!lesson) return lesson.error();

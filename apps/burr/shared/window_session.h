@@ -20,6 +20,7 @@
 #include "burr/workshop/spared.h"
 #include "burr/workshop/spared_distance.h"
 #include "burr/workshop/suction_hand.h"
+#include "shared/left_session.h"
 #include "shared/work.h"
 
 namespace burr::app {
@@ -43,7 +44,9 @@ struct WindowSession {
   std::optional<scenario::CaseLesson> lesson;  // of it, with its landmarks placed
   record::Mode mode = record::Mode::free;
   workshop::Allowed allowed;
+  record::Identity identity;  // mode, learner and attempt
   Earlier earlier;
+  LeftSession left;                      // by the session that this one continues
   std::vector<scenario::RackTool> rack;  // in the order of the session's list of tools
   std::unique_ptr<const workshop::SparedDistance> spared_distance;  // distances to `spared`
 };

@@ -105,7 +105,7 @@ Result<sim::SessionSettings> settings_of(const WorkOptions& options, bool realti
     if (const Status set = workshop::take_session(*options.work_case, settings.servo); !set)
       return set.error();
   // what the user chose goes first
-  if (options.irrigated) settings.servo.irrigated = true;
+  if (options.irrigated) settings.servo.irrigated = *options.irrigated;
   if (options.touch != haptics::Method::constraint) settings.servo.touch = options.touch;
   if (const Status taken = take_tool(options.tool, settings.servo); !taken) return taken.error();
   settings.realtime = realtime;

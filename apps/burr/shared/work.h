@@ -51,7 +51,7 @@ struct WorkOptions {
   std::optional<scenario::Case> work_case;
   // only from a session that is continued
   tick::ToolMode mode = tick::ToolMode::cut;
-  bool irrigated = false;
+  std::optional<bool> irrigated = {};
   Earlier earlier;
 };
 

@@ -22,4 +22,10 @@ struct Ledger {
   double moved = 0;
 };
 
+// Of two parts of one session.
+[[nodiscard]] inline Ledger operator+(const Ledger& a, const Ledger& b) {
+  return {a.asked + b.asked, a.removed + b.removed, a.debt + b.debt,     a.not_cut + b.not_cut,
+          a.added + b.added, a.energy + b.energy,   a.undone + b.undone, a.moved + b.moved};
+}
+
 }  // namespace burr::edit

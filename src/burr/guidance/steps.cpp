@@ -24,9 +24,27 @@ void Steps::go_to(std::size_t n, Events& events) {
   state_[n] = State::begun;
 }
 
+void Steps::take_up(const std::vector<record::CourseEvent>& course) {
+  for (const record::CourseEvent& event : course) {
+    std::size_t n = 0;
+    while (n < steps_.size() && id(n) != event.what) ++n;
+    if (n == steps_.size()) continue;
+    if (event.kind == CourseKind::step_done) {
+      state_[n] = State::done;
+      if (current_ == n) current_.reset();
+    } else if (event.kind == CourseKind::step_begun || event.kind == CourseKind::step_reopened) {
+      reopened_[n] = reopened_[n] || event.kind == CourseKind::step_reopened;
+      state_[n] = State::begun;
+      current_ = n;
+    }
+  }
+}
+
 Steps::Events Steps::begin() {
   Events events;
-  if (!steps_.empty()) go_to(0, events);
+  for (std::size_t n = 0; n < steps_.size() && !current_; ++n)
+    if (state_[n] != State::done) current_ = n;
+  if (current_) go_to(*current_, events);
   return events;
 }
 

@@ -49,6 +49,8 @@ class Steps {
   // Of a step, as the recording names it: "step 3" if its own id may not be recorded.
   [[nodiscard]] std::string id(std::size_t n) const;
 
+  // Of a session that is continued: what its recording says of the steps. Call it before begin().
+  void take_up(const std::vector<record::CourseEvent>& course);
   // Call it once, when the session begins.
   [[nodiscard]] Events begin();
   // The current step is done, and the next open one begins. measured: its `done` says so.

@@ -30,7 +30,7 @@ Status check_chain(Player& player, Progress& progress) {
   Step step;
   while (steps.next(step)) {
     // a recording that was cut at its front begins with a tick that nothing stands before
-    const bool gap = step.gap || (ticks == 0 && step.row.tick != 0);
+    const bool gap = step.missing || (ticks == 0 && step.row.tick != 0);
     if (gap && player.dropped_ticks() == 0 && player.holes().empty())
       return error(fmt::format(
           "{}: the ticks before {} are missing, and nothing in the recording says why, so it "

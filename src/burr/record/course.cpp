@@ -29,6 +29,7 @@ constexpr std::array kKinds = {
     std::pair{CourseKind::done, "done"},
     std::pair{CourseKind::reopened, "reopened"},
     std::pair{CourseKind::ended, "ended"},
+    std::pair{CourseKind::continued, "continued"},
 };
 constexpr std::array kEndings = {std::pair{Ending::declared_done, "declared done"},
                                  std::pair{Ending::time_up, "time up"},

@@ -30,6 +30,7 @@ enum class CourseKind {
   done,          // the user declared the work done
   reopened,      // the user took that back
   ended,         // value: word_of(Ending)
+  continued,     // after `ended`: the user came back to the session; written by the recorder
 };
 [[nodiscard]] const char* word_of(CourseKind kind);
 

@@ -41,6 +41,8 @@ class Diary {
 
   // The user declares the work done, or takes that back.
   void declare_done(std::uint64_t tick, bool done);
+  // Of a session that is continued: it was declared done before.
+  void was_declared_done() { done_ = true; }
   [[nodiscard]] bool declared_done() const { return done_; }
 
   // Writes the last view, and how the session ended: as declared, if it was. Only the first call

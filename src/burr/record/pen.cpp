@@ -22,11 +22,14 @@ constexpr double kBatch = 10e-3;       // ticks in one message [s]
 // small enough that writing one delays the ticks by only a few milliseconds
 constexpr std::size_t kBricksPerMessage = 1024;
 
-// The next row of a tick before `until`; a newer one is kept for the next call.
-template <class Row>
-bool next_until(rt::Ring<Row>& ring, std::optional<Row>& waiting, std::uint64_t until, Row& row) {
+// The next row of a tick before `until`; a newer one is kept for the next call. change: makes of a row of
+// the servo one of the file.
+template <class Row, class Change>
+bool next_until(rt::Ring<Row>& ring, std::optional<Row>& waiting, const Change& change,
+                std::uint64_t until, Row& row) {
   if (!waiting) {
     if (!ring.pop(row)) return false;
+    change(row);
     waiting = row;
   }
   if (waiting->tick >= until) return false;
@@ -72,11 +75,29 @@ Status Pen::write_beginning(const SessionInfo& info, const volume::Bone* embed) 
       !added.ok())
     return added;
 
-  std::array<std::uint16_t, kTopics.size()> ids{};
-  std::map<std::string, std::uint16_t> schemas;
+  const auto ids = add_topics({});
+  if (!ids) return ids.error();
+  if (embed != nullptr)
+    if (Status added =
+            writer_->add_attachment(kBoneAttachment, kBoneMediaType, bone_to_blob(*embed));
+        !added.ok())
+      return added;
+  writer_->add_message((*ids)[0], 1, 0, as_bytes(to_json(info)));
+  name_channels(*ids);
+  return writer_->close_chunk();
+}
+
+// The channels of a recording; those of the earlier one keep their numbers.
+Result<Pen::ChannelIds> Pen::add_topics(const Topics& had) {
+  ChannelIds ids{};
+  std::map<std::string, std::uint16_t> schemas = had.schemas;
   for (std::size_t i = 0; i < kTopics.size(); ++i) {
     const Topic& topic = kTopics[i];
     if (topic.name == std::string_view(kSecond.name) && rings_.second == nullptr) continue;
+    if (const auto earlier = had.channels.find(topic.name); earlier != had.channels.end()) {
+      ids[i] = earlier->second;
+      continue;
+    }
     if (!schemas.contains(topic.schema_name)) {
       const auto schema = writer_->add_schema(topic.schema_name, topic.schema_encoding,
                                               schema_data(topic.schema_name));
@@ -87,19 +108,13 @@ Status Pen::write_beginning(const SessionInfo& info, const volume::Bone* embed) 
     if (!id) return id.error();
     ids[i] = *id;
   }
-  if (embed != nullptr)
-    if (Status added =
-            writer_->add_attachment(kBoneAttachment, kBoneMediaType, bone_to_blob(*embed));
-        !added.ok())
-      return added;
-  writer_->add_message(ids[0], 1, 0, as_bytes(to_json(info)));
-  name_channels(ids);
-  return writer_->close_chunk();
+  return ids;
 }
 
 void Pen::name_channels(const ChannelIds& ids) {
   for (std::size_t i = 0; i < kTopics.size(); ++i) {
     const std::string_view name = kTopics[i].name;
+    if (name == kSession.name) session_channel_ = ids[i];
     if (name == kTicks.name) tick_channel_ = ids[i];
     if (name == kCommands.name) command_channel_ = ids[i];
     if (name == kEvents.name) event_channel_ = ids[i];
@@ -140,17 +155,16 @@ Status Pen::drain_last(bool stopped) {
   if (Status drained = drain(true); !drained.ok()) return drained;
   put_event(stopped ? "stopped" : "finished");
   const auto number = [](std::uint64_t value) { return fmt::format("{}", value); };
-  return writer_->add_metadata("burr.account",
-                               {{"ticks", number(account_.ticks)},
-                                {"wishes", number(account_.commands)},
-                                {"brick_rows", number(account_.brick_rows)},
-                                {"keyframes", number(account_.keyframes)},
-                                {"views", number(account_.views)},
-                                {"events", number(account_.events)},
-                                {"dropped_ticks", number(account_.dropped_ticks)},
-                                {"dropped_wishes", number(account_.dropped_commands)},
-                                {"dropped_bricks", number(account_.dropped_bricks)},
-                                {"dropped_notes", number(account_.dropped_notes)}});
+  return writer_->add_metadata(kAccountName, {{"ticks", number(account_.ticks)},
+                                              {"wishes", number(account_.commands)},
+                                              {"brick_rows", number(account_.brick_rows)},
+                                              {"keyframes", number(account_.keyframes)},
+                                              {"views", number(account_.views)},
+                                              {"events", number(account_.events)},
+                                              {"dropped_ticks", number(account_.dropped_ticks)},
+                                              {"dropped_wishes", number(account_.dropped_commands)},
+                                              {"dropped_bricks", number(account_.dropped_bricks)},
+                                              {"dropped_notes", number(account_.dropped_notes)}});
 }
 
 Status Pen::finish() {
@@ -186,7 +200,7 @@ void Pen::discard() {
   while (rings_.bricks.pop(brick)) ++account_.dropped_bricks;
   while (rings_.second && rings_.second->pop(tick)) ++account_.dropped_ticks;
   notes_.drop_all();
-  account_.dropped_notes = notes_.dropped();
+  account_.dropped_notes = before_.dropped_notes + notes_.dropped();
 }
 
 void Pen::lose_unwritten() {
@@ -215,6 +229,7 @@ void Pen::take_ticks() {
   tick::TickRow row;
   // at most as many as there are now: a servo as fast as this thread would keep it here for ever
   for (std::size_t left = rings_.ticks.size(); left > 0 && rings_.ticks.pop(row); --left) {
+    hand_.change(row);
     rows.push_back(row);
     if (rows.size() < per_message && left > 1) continue;
     message_.clear();
@@ -241,7 +256,8 @@ void Pen::take_second(std::uint64_t until) {
     put(second_channel_, rows.front().tick, message_.span());
     rows.clear();
   };
-  while (next_until(*rings_.second, waiting_second_, until, row)) {
+  const auto count_on = [this](tick::TickRow& one) { second_hand_.change(one); };
+  while (next_until(*rings_.second, waiting_second_, count_on, until, row)) {
     rows.push_back(row);
     if (rows.size() >= rows_per_message()) put_rows();
   }
@@ -250,7 +266,8 @@ void Pen::take_second(std::uint64_t until) {
 
 void Pen::take_commands(std::uint64_t until) {
   tick::CommandRow row;
-  while (next_until(rings_.commands, waiting_command_, until, row)) {
+  const auto count_on = [this](tick::CommandRow& one) { one.tick += first_tick_; };
+  while (next_until(rings_.commands, waiting_command_, count_on, until, row)) {
     put(command_channel_, row.tick, as_bytes(to_json(row)));
     ++account_.commands;
   }
@@ -259,7 +276,8 @@ void Pen::take_commands(std::uint64_t until) {
 void Pen::take_bricks(std::uint64_t until) {
   Bricks bricks;
   tick::BrickRow row;
-  while (next_until(rings_.bricks, waiting_brick_, until, row)) {
+  const auto count_on = [this](tick::BrickRow& one) { one.tick += first_tick_; };
+  while (next_until(rings_.bricks, waiting_brick_, count_on, until, row)) {
     // the new content goes to the mirror, the difference to the file
     BrickContent& mirror = mirror_[row.brick];
     BrickContent change;
@@ -348,10 +366,11 @@ void Pen::note_dropped() {
                       account_.dropped_notes);
   };
   const auto before = lost();
-  account_.dropped_ticks = rings_.ticks.dropped() + (rings_.second ? rings_.second->dropped() : 0);
-  account_.dropped_commands = rings_.commands.dropped();
-  account_.dropped_bricks = rings_.bricks.dropped();
-  account_.dropped_notes = notes_.dropped();
+  account_.dropped_ticks = before_.dropped_ticks + rings_.ticks.dropped() +
+                           (rings_.second ? rings_.second->dropped() : 0);
+  account_.dropped_commands = before_.dropped_commands + rings_.commands.dropped();
+  account_.dropped_bricks = before_.dropped_bricks + rings_.bricks.dropped();
+  account_.dropped_notes = before_.dropped_notes + notes_.dropped();
   if (before != lost()) put_event("dropped");
 }
 

@@ -18,11 +18,14 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/record/counted_on.h"
+#include "burr/record/earlier_part.h"
 #include "burr/record/mcap/mcap_writer.h"
 #include "burr/record/recording_stats.h"
 #include "burr/record/schema.h"
@@ -53,6 +56,12 @@ class Pen {
                                                           const SessionInfo& info,
                                                           const volume::Bone* embed,
                                                           const Rings& rings);
+  // The same for a session that is continued: writes the recording that it goes on with, then its
+  // description (pen_goes_on.cpp, which a page in a browser leaves out).
+  [[nodiscard]] static Result<std::unique_ptr<Pen>> go_on(std::unique_ptr<McapWriter>& writer,
+                                                          const SessionInfo& info,
+                                                          const Rings& rings,
+                                                          const EarlierPart& earlier);
 
   // Called after each chunk that was given to the kernel.
   void set_on_chunk(std::function<void()> what) { on_chunk_ = std::move(what); }
@@ -77,11 +86,17 @@ class Pen {
   [[nodiscard]] RecordingStats stats() const;
 
  private:
+  using ChannelIds = std::array<std::uint16_t, kTopics.size()>;
+  struct Topics {  // of the recording that goes on, by name
+    std::map<std::string, std::uint16_t> schemas, channels;
+  };
   Pen(std::unique_ptr<McapWriter> writer, const Rings& rings, double rate_hz);
   [[nodiscard]] Status drain(bool last);
   [[nodiscard]] Status write_chunk();
-  using ChannelIds = std::array<std::uint16_t, kTopics.size()>;
   [[nodiscard]] Status write_beginning(const SessionInfo& info, const volume::Bone* embed);
+  [[nodiscard]] Status copy_earlier(const EarlierPart& earlier);
+  void take_up(const SessionInfo& info, const EarlierPart& earlier);
+  [[nodiscard]] Result<ChannelIds> add_topics(const Topics& had);
   void name_channels(const ChannelIds& ids);
   [[nodiscard]] std::uint64_t time_ns(std::uint64_t tick) const;
   void put(std::uint16_t channel, std::uint64_t tick, ByteSpan message);
@@ -103,8 +118,8 @@ class Pen {
   std::unique_ptr<McapWriter> writer_;
   double rate_hz_;
   std::function<void()> on_chunk_;
-  std::uint16_t tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0, change_channel_ = 0,
-                keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0,
+  std::uint16_t session_channel_ = 0, tick_channel_ = 0, command_channel_ = 0, event_channel_ = 0,
+                change_channel_ = 0, keyframe_channel_ = 0, view_channel_ = 0, course_channel_ = 0,
                 second_channel_ = 0;  // 0: no second hand
   WaitingNotes notes_;
   std::map<std::uint16_t, std::uint32_t> sequence_;
@@ -112,6 +127,10 @@ class Pen {
   BytesOut message_;
   RecordingStats account_;
   std::chrono::steady_clock::time_point last_write_;
+  // Of the part of the session that is recorded now; the servo counts from 0.
+  std::uint64_t first_tick_ = 0;
+  CountedOn hand_, second_hand_;
+  RecordingStats before_;       // the account of the earlier parts
   std::uint64_t end_tick_ = 0;  // ticks before this one have been taken
   std::optional<tick::CommandRow> waiting_command_;
   std::optional<tick::BrickRow> waiting_brick_;

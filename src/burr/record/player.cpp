@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "burr/record/assumed_tool.h"
@@ -101,24 +102,33 @@ void Player::notice(const std::string& sentence) {
 
 Status Player::read_session() {
   const Channels channels = reader_->channels_of(kSession.name);
+  bool first = true;
   for (const std::size_t c : chunks_with(channels)) {
     const auto chunk = reader_->read_chunk(c);
-    if (!chunk) return chunk.error();
+    if (!chunk && first) return chunk.error();
+    if (!chunk) {
+      notice(chunk.error().text);
+      continue;
+    }
     for (const McapMessage& message : chunk->messages) {
       if (!channels.contains(message.channel)) continue;
       auto info = session_from_json(as_text(message.data), path_);
       if (!info) return info.error();
-      info_ = std::move(*info);
-      if (info_.work_case && !info_.work_case->unchanged())
-        notice(path_ +
-               ": the case in this recording was changed after it was recorded; a score computed "
-               "from it is not the score of the session");
-      return fine();
+      if (std::exchange(first, false))
+        info_ = std::move(*info);
+      else if (info->first_tick > (continued_.empty() ? 0 : continued_.back().first_tick))
+        continued_.push_back(std::move(*info));
     }
   }
-  return error(path_ +
-               ": the description of the session is missing; this is not a recording of burr, or "
-               "its beginning is damaged");
+  if (first)
+    return error(path_ +
+                 ": the description of the session is missing; this is not a recording of burr, or "
+                 "its beginning is damaged");
+  if (info_.work_case && !info_.work_case->unchanged())
+    notice(path_ +
+           ": the case in this recording was changed after it was recorded; a score computed "
+           "from it is not the score of the session");
+  return fine();
 }
 
 void Player::read_events() {
@@ -132,7 +142,8 @@ void Player::read_events() {
       if (!event_channels_.contains(message.channel)) continue;
       const auto event = nlohmann::json::parse(as_text(message.data), nullptr, false);
       if (!event.is_object()) continue;
-      stopped_ = stopped_ || event.value("event", nlohmann::json()) == "stopped";
+      const nlohmann::json what = event.value("event", nlohmann::json());
+      stopped_ = what != "continued" && (stopped_ || what == "stopped");
       const auto count = [&](const char* name, std::uint64_t& to) {
         const auto at = event.find(name);
         if (at != event.end() && at->is_number_unsigned())
@@ -314,7 +325,8 @@ bool StepCursor::next(Step& step) {
     if (row.tick < first_tick_ || (last_tick_ && row.tick <= *last_tick_)) continue;
     step.row = row;
     if (!(row.tool.radius > 0)) step.row.tool = player_->assumed_tool(row.tick);
-    step.gap = row.tick != (last_tick_ ? *last_tick_ + 1 : first_tick_);
+    step.missing = row.tick != (last_tick_ ? *last_tick_ + 1 : first_tick_);
+    step.gap = step.missing || player_->begins_part(row.tick);
     last_tick_ = row.tick;
     step.commands.clear();
     for (; !commands_.empty() && commands_.front().second.tick <= row.tick; commands_.pop_front())

@@ -10,6 +10,7 @@
 // Thread: one at a time. Memory: indexes, one or two chunks, the changed bricks twice.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -39,10 +40,13 @@ struct Step {
   std::vector<tick::Command> commands;  // taken at the start of this tick, in order
   // The other hand in this tick; none: there is none, or the row is missing. What it is: SecondInfo.
   std::optional<tick::TickRow> second;
-  bool gap = false;  // ticks before this one are missing: dropped, or in a damaged stretch
+  bool missing = false;  // ticks before this one are: dropped, or in a damaged stretch
+  // The same; or the session was left and continued here, so that the hand comes from elsewhere.
+  bool gap = false;
 };
 
 class Player;
+struct EarlierPart;
 
 // Goes through the ticks in order. next() is false at the end; the player's notices() then say
 // whether damaged parts were stepped over.
@@ -87,6 +91,14 @@ class Player {
   [[nodiscard]] static Result<std::unique_ptr<Player>> open(const std::string& path);
 
   [[nodiscard]] const SessionInfo& info() const { return info_; }
+  // A part of a session begins with this tick, which is not the first one.
+  [[nodiscard]] bool begins_part(std::uint64_t tick) const {
+    return std::any_of(continued_.begin(), continued_.end(),
+                       [tick](const SessionInfo& part) { return part.first_tick == tick; });
+  }
+  // Of a session that was left and continued: each later part, with its first tick, in order. The
+  // ticks, the ledger and the bone go on from part to part; settings are those of info() before.
+  [[nodiscard]] const std::vector<SessionInfo>& continued() const { return continued_; }
   [[nodiscard]] const std::string& path() const { return path_; }
   // False: incomplete (killed, power cut, or still being recorded) and opened as far as it goes; or the
   // session was stopped before its time by Ctrl-C or SIGTERM.
@@ -140,6 +152,10 @@ class Player {
   // The same with the commands of that tick and the other hand.
   [[nodiscard]] Result<Step> step_at(double t_s);
 
+  // For a recorder that goes on with this recording (earlier_part.h). Error: it holds no tick, or
+  // what the bone is at its end is not known.
+  [[nodiscard]] Result<EarlierPart> earlier_part();
+
   // The bone at the start, if the recording holds it (info().embedded).
   [[nodiscard]] Result<std::unique_ptr<volume::Bone>> embedded_bone(
       std::size_t reserve_bricks) const;
@@ -181,6 +197,7 @@ class Player {
   std::string path_;
   std::unique_ptr<McapReader> reader_;
   SessionInfo info_;
+  std::vector<SessionInfo> continued_;
   std::vector<std::string> notices_;
   using Channels = std::set<std::uint16_t>;  // of a topic; empty: the file does not have it
   Channels tick_channels_, command_channels_, event_channels_, change_channels_, keyframe_channels_,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "burr/record/bone_blob.h"
+#include "burr/record/earlier_part.h"
 #include "burr/record/player.h"
 
 namespace burr::record {
@@ -214,6 +216,50 @@ Status Player::bone_at(double t_s, volume::Bone& bone) {
   state_good_ = reached.ok();
   if (!reached.ok()) return reached;
   return show(bone);
+}
+
+Result<EarlierPart> Player::earlier_part() {
+  if (end_tick_ == first_tick_) return error(path_ + ": this recording holds no tick");
+  const std::uint64_t last = end_tick_ - 1;
+  state_good_ = false;
+  if (!load_keyframe(last)) {
+    state_.clear();
+    place_ = {};
+  }
+  if (Status reached = advance(last); !reached.ok()) return reached.error();
+  state_good_ = true;
+  EarlierPart part;
+  part.file = path_;
+  part.info = info_;
+  part.ticks = end_tick_;
+  part.bricks = state_;
+  part.batch = place_.next_batch - 1;
+  const auto step = step_at(static_cast<double>(last) / info_.rate_hz);
+  if (!step) return step.error();
+  part.hand = {end_tick_, step->row.ledger, step->row.hash};
+  part.second.ticks = end_tick_;
+  if (step->second) part.second = {end_tick_, step->second->ledger, step->second->hash};
+  RecordingStats& account = part.account;
+  for (std::size_t i = 0; i < reader_->metadata().size(); ++i) {
+    if (reader_->metadata()[i].name != kAccountName) continue;
+    const auto pairs = reader_->read_metadata(i);
+    if (!pairs) continue;
+    const auto count = [&pairs](const char* name, std::uint64_t& to) {
+      for (const auto& [key, value] : *pairs)
+        if (key == name) to = std::strtoull(value.c_str(), nullptr, 10);
+    };
+    count("wishes", account.commands);
+    count("brick_rows", account.brick_rows);
+    count("keyframes", account.keyframes);
+    count("views", account.views);
+    count("events", account.events);
+  }
+  account.ticks = account.written_ticks = end_tick_ - first_tick_;
+  account.dropped_ticks = dropped_ticks_;
+  account.dropped_commands = dropped_commands_;
+  account.dropped_bricks = dropped_bricks_;
+  account.dropped_notes = dropped_notes_;
+  return part;
 }
 
 Result<std::unique_ptr<volume::Bone>> Player::embedded_bone(std::size_t reserve_bricks) const {

@@ -30,11 +30,14 @@ void Player::read_course() {
                     path_, unknown));
 }
 
+// Where the session was continued it had not ended.
 std::optional<Ending> Player::ending() const {
-  const auto end = std::find_if(course_.begin(), course_.end(), [](const CourseEvent& event) {
-    return event.kind == CourseKind::ended;
-  });
-  return end == course_.end() ? std::nullopt : ending_of(end->value);
+  std::optional<Ending> ending;
+  for (const CourseEvent& event : course_) {
+    if (event.kind == CourseKind::ended) ending = ending_of(event.value);
+    if (event.kind == CourseKind::continued) ending.reset();
+  }
+  return ending;
 }
 
 std::vector<View> Player::views() {

@@ -1,5 +1,6 @@
 #include "burr/record/recorder.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -13,6 +14,7 @@
 
 #include "burr/base/check.h"
 #include "burr/base/inputs.h"
+#include "burr/record/earlier_part.h"
 #include "burr/record/mcap/mcap_writer.h"
 #include "burr/record/pen.h"
 #include "burr/record/rename_and_sync.h"
@@ -220,12 +222,19 @@ Recorder::Recorder(double rate_hz, std::size_t brick_rows, bool realtime, bool s
 Recorder::~Recorder() = default;
 
 Status Recorder::start(const std::string& path, const SessionInfo& asked, const volume::Bone* embed,
-                       std::function<void(const Error&)> on_trouble) {
+                       std::function<void(const Error&)> on_trouble, const EarlierPart* earlier) {
   BURR_CHECK(writer_thread_ == nullptr);
   const SessionInfo info = Pen::completed(asked, rate_hz_, embed != nullptr);
   if (Status good = check(info); !good.ok()) return good;
 
-  if (const Status allowed = base::check_not_input(path); !allowed) return allowed;
+  if (earlier != nullptr)
+    if (const Status same = goes_on(earlier->info, info); !same)
+      return error(Trouble::usage,
+                   fmt::format("{}: this session cannot be continued in its own recording, because "
+                               "{}",
+                               path, same.error().text));
+  if (earlier == nullptr)  // otherwise it may be the file that was read, which goes on
+    if (const Status allowed = base::check_not_input(path); !allowed) return allowed;
   if (being_written(path))
     return error(Trouble::io,
                  path + ": another burr is recording to this file; choose another name");
@@ -243,13 +252,15 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
       !being_written(beside))
     ::unlink(beside.c_str());
   if (Status opened = writer->open(beside, path); !opened.ok()) return opened;
-  auto pen =
-      Pen::begin(writer, info, embed, {ticks_, commands_, bricks_, second_ ? &*second_ : nullptr});
+  const Pen::Rings rings{ticks_, commands_, bricks_, second_ ? &*second_ : nullptr};
+  auto pen = earlier != nullptr ? Pen::go_on(writer, info, rings, *earlier)
+                                : Pen::begin(writer, info, embed, rings);
   if (!pen) return give_up(pen.error());
   if (Status synced = (*pen)->writer().sync(); !synced.ok()) return give_up(synced.error());
   if (Status placed = rename_and_sync(beside, path); !placed.ok()) return give_up(placed.error());
 
   path_ = path;
+  first_tick_ = earlier != nullptr ? earlier->ticks : 0;
   (*pen)->session_begins();
   writer_thread_ = std::make_unique<WriterThread>(*this, std::move(*pen), std::move(on_trouble));
   return fine();
@@ -258,14 +269,18 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
 Status Recorder::note(const View& view) {
   BURR_CHECK(writer_thread_ != nullptr);
   if (Status good = check(view); !good.ok()) return good;
-  writer_thread_->notes().put({true, view.tick, to_json(view)});
+  View later = view;
+  later.tick += first_tick_;
+  writer_thread_->notes().put({true, later.tick, to_json(later)});
   return fine();
 }
 
 Status Recorder::note(const CourseEvent& event) {
   BURR_CHECK(writer_thread_ != nullptr);
   if (Status good = check(event); !good.ok()) return good;
-  writer_thread_->notes().put({false, event.tick, to_json(event)});
+  CourseEvent later = event;
+  later.tick += first_tick_;
+  writer_thread_->notes().put({false, later.tick, to_json(later)});
   return fine();
 }
 

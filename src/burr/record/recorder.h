@@ -42,6 +42,8 @@
 
 namespace burr::record {
 
+struct EarlierPart;
+
 class Recorder {
  public:
   // rate_hz: of ticks. brick_rows: how many changed bricks may wait. A larger burst within 40 ms
@@ -59,9 +61,12 @@ class Recorder {
   // new one has its beginning. embed: this bone goes into the file in its present state. Fills in
   // burr_version, build and embedded of info.
   // on_trouble: called at most once, on a thread of the recorder, as soon as there is an error.
+  // earlier: the recording that this one goes on with, whose place `path` may be (earlier_part.h).
+  // The servo counts its ticks from 0 all the same; so do views and events that are noted.
   [[nodiscard]] Status start(const std::string& path, const SessionInfo& info,
                              const volume::Bone* embed = nullptr,
-                             std::function<void(const Error&)> on_trouble = {});
+                             std::function<void(const Error&)> on_trouble = {},
+                             const EarlierPart* earlier = nullptr);
 
   // ---- for the servo; within a tick: commands, bricks, then the tick
   [[nodiscard]] rt::Ring<tick::TickRow>& ticks() BURR_RT { return ticks_; }
@@ -105,6 +110,7 @@ class Recorder {
   double rate_hz_;
   bool realtime_;
   std::string path_;
+  std::uint64_t first_tick_ = 0;  // of the servo's tick 0, in the file
   std::unique_ptr<WriterThread> writer_thread_;
 };
 

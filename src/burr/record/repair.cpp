@@ -6,77 +6,20 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <set>
 #include <vector>
 
 #include "burr/base/plain_file.h"
+#include "burr/record/copy_records.h"
 #include "burr/record/mcap/mcap_reader.h"
 #include "burr/record/mcap/mcap_writer.h"
-#include "burr/record/mcap/packed.h"
 #include "burr/record/rename_and_sync.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
 
 namespace burr::record {
 namespace {
-
-mcap::MessageIndexes indexes_of(const McapChunk& chunk) {
-  mcap::MessageIndexes indexes;
-  for (const McapMessage& message : chunk.messages)
-    indexes[message.channel].emplace_back(message.time_ns, message.offset);
-  return indexes;
-}
-
-// A part of the file, for McapWriter.
-McapWriter::Pieces part_of(const McapReader& from, std::uint64_t offset, std::uint64_t length) {
-  return [&from, offset, length](const std::function<Status(ByteSpan)>& use) {
-    return from.read_raw({offset, length}, use);
-  };
-}
-
-// What stands before the chunks.
-Status copy_beginning(const McapReader& from, McapWriter& to) {
-  for (const mcap::Schema& schema : from.schemas())
-    if (Status added = to.add(schema); !added.ok()) return added;
-  for (const mcap::Channel& channel : from.channels())
-    if (Status added = to.add(channel); !added.ok()) return added;
-  for (std::size_t i = 0; i < from.metadata().size(); ++i)
-    if (const auto pairs = from.read_metadata(i))
-      if (Status added = to.add_metadata(from.metadata()[i].name, *pairs); !added.ok())
-        return added;
-  for (const mcap::RecordAt& at : from.unknown())
-    if (Status added = to.copy_unknown(part_of(from, at.offset, at.length)); !added.ok())
-      return added;
-  for (std::size_t i = 0; i < from.attachments().size(); ++i) {
-    const mcap::AttachmentAt& at = from.attachments()[i];
-    if (!from.check_attachment(i).ok()) continue;
-    if (Status added = to.copy_attachment(at, part_of(from, at.offset, at.length)); !added.ok())
-      return added;
-  }
-  return fine();
-}
-
-// A chunk or a message that cannot be looked into.
-Status copy_opaque(const McapReader& from, const mcap::ChunkAt& at, McapWriter& to) {
-  if (!at.bare) return to.copy_chunk(at, part_of(from, at.offset, at.length + at.index_length));
-  return to.copy_message(at.index_offsets.begin()->first, at.start_ns,
-                         part_of(from, at.offset, at.length));
-}
-
-// Messages that stood outside of chunks are put into one.
-Status add(const McapReader& from, std::size_t index, const McapChunk& chunk, McapWriter& to) {
-  mcap::ChunkAt at = from.chunks()[index];
-  if (at.bare) {
-    std::vector<std::uint8_t> packed;
-    Packer().pack(chunk.bytes, packed);
-    at.compression = "zstd";
-    return to.add_chunk(at, chunk.crc, packed, indexes_of(chunk));
-  }
-  const auto packed = from.read_packed(index);
-  return packed ? to.add_chunk(at, chunk.crc, *packed, indexes_of(chunk)) : Status(packed.error());
-}
 
 Error stopped() {
   return error(Trouble::interrupted, "repair was stopped; the recording is unchanged");
@@ -130,11 +73,7 @@ Status copy(const McapReader& from, McapWriter& to, Progress& progress) {
   for (std::size_t i = 0; i < count; ++i) {
     progress.report(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(count), "repairing");
     if (progress.cancelled()) return stopped();
-    if (McapReader::opaque(from.chunks()[i])) {
-      if (Status added = copy_opaque(from, from.chunks()[i], to); !added.ok()) return added;
-    } else if (const auto chunk = from.read_chunk(i)) {
-      if (Status added = add(from, i, *chunk, to); !added.ok()) return added;
-    }
+    if (Status added = copy_chunk(from, i, to); !added.ok()) return added;
   }
   progress.report(1, "repairing");
   return fine();

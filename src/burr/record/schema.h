@@ -43,6 +43,7 @@ inline constexpr Topic kSecond = {"/second", "protobuf", "burr.Ticks", "protobuf
 inline constexpr std::array<Topic, 9> kTopics = {kSession,   kTicks, kCommands, kEvents, kChanges,
                                                  kKeyframes, kViews, kCourse,   kSecond};
 inline constexpr const char* kBoneAttachment = "bone";
+inline constexpr const char* kAccountName = "burr.account";  // metadata: counts of rows
 inline constexpr const char* kBoneMediaType = "application/x-burr-bone";
 
 // The text or bytes of a schema, as written in the file.

@@ -379,6 +379,8 @@ std::string to_json(const SessionInfo& info) {
     session["second"] = {{"numbers", number_object(info.second->numbers)},
                          {"device", info.second->device},
                          {"tools", json::parse(tools_to_json(info.second->tools))}};
+  if (info.first_tick > 0)
+    session["continued"] = {{"first_tick", info.first_tick}, {"goes_on_with", info.goes_on_with}};
   // names of tissues come from the user's file and may hold anything; broken UTF-8 is replaced
   return session.dump(1, ' ', false, json::error_handler_t::replace);
 }
@@ -419,6 +421,10 @@ Result<SessionInfo> session_from_json(std::string_view text, const std::string& 
     if (!tools_from_json(tools.dump(), info.tools)) return missing("tools");
   if (const json& second = part(object, "second"); !second.is_null())
     if (!get_second(second, info.second.emplace())) return missing("second");
+  if (const json& part_of = part(object, "continued"); !part_of.is_null())
+    if (!get_count(part_of, "first_tick", info.first_tick) ||
+        !get_text(part_of, "goes_on_with", info.goes_on_with))
+      return missing("continued");
   const json& volume = part(object, "volume");
   if (!volume.is_object()) return missing("volume");
   if (!get_hash(volume, "content_hash", info.volume.content_hash))

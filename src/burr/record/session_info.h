@@ -89,6 +89,11 @@ struct SessionInfo {
   std::vector<tool::ShapedTool> tools;  // other than the round burr, that the session could take
   std::optional<SecondInfo> second;     // none: no second hand, or recorded before 2026-11-27
   bool embedded = false;                // the file holds the bone; filled in by the Recorder
+  // Of a session that was left and continued there is one SessionInfo more for each part. Its first
+  // tick in the recording, and the SHA-1 of the file as it was before, 40 digits; both filled in by
+  // the Recorder. The first part: 0, empty.
+  std::uint64_t first_tick = 0;
+  std::string goes_on_with;
 };
 
 // The bone as it is now, before the first tick. How it was made (numbers, words) is added by the

@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kSessionSchema = R"({
  "$schema": "https://json-schema.org/draft/2020-12/schema",
  "title": "burr.Session",
- "description": "What the session was; once, before the first tick.",
+ "description": "What the session was, before the first tick; once more for each time that it was continued.",
  "type": "object",
  "properties": {
   "burr_version": {"type": "string"},
@@ -94,6 +94,14 @@ constexpr const char* kSessionSchema = R"({
     "rubric_hash": {"type": "string", "description": "hexadecimal, of the rubric that was shown; 0: none"},
     "labels_hash": {"type": "string", "description": "hexadecimal, of the tissue of every voxel and the tissues' names"},
     "accepted_labels": {"type": "array", "items": {"type": "string"}, "description": "structures whose labels the user accepted in spite of their faults; absent: none"}
+   }
+  },
+  "continued": {
+   "type": "object",
+   "description": "only in a second, third ... message: the session was left and continued; this part has the settings above, and its bone is the one at the end of the part before",
+   "properties": {
+    "first_tick": {"type": "integer", "description": "of this part"},
+    "goes_on_with": {"type": "string", "description": "SHA-1 of the file as it was before; empty: nobody asked"}
    }
   },
   "shaft": {

@@ -36,6 +36,8 @@ std::optional<ReportLine::Event> event_of(const record::CourseEvent& event, doub
       return ReportLine::Event{at_s, word(Word::report_event_complication), Tone::bad};
     case CourseKind::question:
       return ReportLine::Event{at_s, word(Word::report_event_question), Tone::open};
+    case CourseKind::continued:
+      return ReportLine::Event{at_s, word(Word::report_event_continued), Tone::none};
     case CourseKind::done:
       return ReportLine::Event{at_s, word(Word::report_event_done), Tone::good};
     default:

@@ -80,6 +80,7 @@ SessionRecord record_of(const Json& json) {
   record.engine = json.at("engine");
   record.recording_hash = json.at("recording_hash");
   record.recording_uri = json.at("recording_uri");
+  record.goes_on_with = json.value("goes_on_with", std::vector<std::string>());
   for (const Json& one : json.at("scores")) record.scores.push_back(score_of(one));
   for (const Json& one : json.at("metrics"))
     record.metrics.push_back({one.at("name"), one.at("unit"), one.at("value")});
@@ -122,6 +123,7 @@ std::string to_json(const SessionRecord& record) {
                      {"engine", record.engine},
                      {"recording_hash", record.recording_hash},
                      {"recording_uri", record.recording_uri},
+                     {"goes_on_with", record.goes_on_with},
                      {"scores", scores},
                      {"metrics", metrics},
                      {"self_marks", marks}};

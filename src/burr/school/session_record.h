@@ -69,6 +69,8 @@ struct SessionRecord {
   std::string engine;                  // version of the burr that recorded
   std::string recording_hash;          // SHA-1 of the file, 40 digits
   std::string recording_uri;           // file://COMPUTER/path
+  // Of a session that was continued: the hashes of its recording as it was before, oldest first.
+  std::vector<std::string> goes_on_with = {};
   std::vector<ScoreRecord> scores;
   std::vector<MetricRecord> metrics;
   std::vector<SelfMarkRecord> self_marks;

@@ -91,6 +91,30 @@ Status insert_rest(Database& to, const SessionRecord& record, const std::string&
   return fine();
 }
 
+// A session that was continued is one session: what was entered of its recording before it went on
+// gives way. What a person has marked stays: it is about that work.
+Status take_out_earlier(Database& to, const SessionRecord& record, Entered& entered) {
+  for (const std::string& hash : record.goes_on_with) {
+    const auto found = to.rows(
+        "SELECT id FROM session WHERE recording_hash = $1 AND learner_id = $2 AND NOT EXISTS "
+        "(SELECT 1 FROM rater_mark WHERE rater_mark.session_id = session.id)",
+        {hash, record.learner});
+    if (!found) return found.error();
+    for (const Row& row : *found) {
+      const std::string id = text(row[0]);
+      for (const Sql each :
+           {Sql("DELETE FROM item WHERE score_id IN (SELECT id FROM score WHERE session_id = $1)"),
+            Sql("DELETE FROM score WHERE session_id = $1"),
+            Sql("DELETE FROM metric WHERE session_id = $1"),
+            Sql("DELETE FROM self_mark WHERE session_id = $1"),
+            Sql("DELETE FROM session WHERE id = $1")})
+        if (const Status done = ran(to.run(each, {id})); !done) return done;
+      ++entered.taken_out;
+    }
+  }
+  return fine();
+}
+
 }  // namespace
 
 Result<Entered> enter(Store& store, const SessionRecord& record) {
@@ -122,6 +146,7 @@ Result<Entered> enter(Store& store, const SessionRecord& record) {
     entered.scores += *made ? 1 : 0;
   }
   if (const Status done = insert_rest(to, record, id); !done) return done.error();
+  if (const Status done = take_out_earlier(to, record, entered); !done) return done.error();
   if (entered.session)  // a session that is scored anew says nothing anew
     if (const Status queued = queue_session(store, record); !queued) return queued.error();
   if (entered.session || entered.scores > 0)

@@ -20,6 +20,8 @@ namespace burr::school {
 struct Entered {
   bool session = false;    // it was not there before
   std::size_t scores = 0;  // new ones, also of a session that was there
+  // Sessions that this one goes on with: they were entered before it was continued.
+  std::size_t taken_out = 0;
 };
 // All or nothing. Error, Trouble::usage: there is no such learner.
 [[nodiscard]] Result<Entered> enter(Store& store, const SessionRecord& record);

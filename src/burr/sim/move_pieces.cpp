@@ -169,6 +169,7 @@ Result<edit::PieceStore> moved_in(record::Player& player, volume::Bone& bone, do
   for (record::Step step; steps.next(step);) {
     const double t = static_cast<double>(step.row.tick) / rate;
     if (until >= 0 && t > until) break;
+    if (player.begins_part(step.row.tick)) store.none_is_out();
     // on its way out or in, too
     out = step.row.piece.state != tick::PieceRow::kNone ||
           (step.row.contact.flags & rt::kFlagRestoring) != 0;

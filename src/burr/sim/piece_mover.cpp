@@ -69,8 +69,11 @@ double distance_to(const math::Vec3& mouth, const volume::Bone& bone,
 
 }  // namespace
 
-PieceMover::PieceMover(Session& session)
-    : session_(session), finder_(session.bone()), changed_(session.bone().add_watcher()) {
+PieceMover::PieceMover(Session& session, edit::PieceStore moved)
+    : session_(session),
+      finder_(session.bone()),
+      changed_(session.bone().add_watcher()),
+      store_(std::move(moved)) {
   seen_ = seen_before_ = session_.writes();
   thread_ = std::thread([this] { run(); });
 }

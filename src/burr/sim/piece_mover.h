@@ -39,8 +39,9 @@ namespace burr::sim {
 
 class PieceMover {
  public:
-  // Registers two watchers of the bone.
-  explicit PieceMover(Session& session);
+  // Registers two watchers of the bone. moved: what was moved before in this bone, in a session that is
+  // continued (moved_in() of move_pieces.h).
+  explicit PieceMover(Session& session, edit::PieceStore moved = {});
   // Stop the session, or this, first: it reads the bone.
   ~PieceMover();
   PieceMover(const PieceMover&) = delete;

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "burr/device/replayed_hand.h"
 #include "burr/record/chain.h"
+#include "burr/record/counted_on.h"
 #include "burr/rt/flags.h"
 #include "burr/sim/session_words.h"
 #include "burr/tick/second_hand.h"
@@ -89,9 +92,10 @@ struct OtherHand {
   OtherHand(const RecordedSecond& recorded, tick::Servo& servo)
       : device(recorded.device), hand(servo.shared(), device, recorded.settings) {}
   // nullptr: none took part.
-  static Result<std::unique_ptr<OtherHand>> of(const record::Player& player, tick::Servo& servo) {
-    if (!player.info().second) return std::unique_ptr<OtherHand>();
-    const auto recorded = second_of(player.info(), player.path());
+  static Result<std::unique_ptr<OtherHand>> of(const record::SessionInfo& info,
+                                               const std::string& file, tick::Servo& servo) {
+    if (!info.second) return std::unique_ptr<OtherHand>();
+    const auto recorded = second_of(info, file);
     if (!recorded) return recorded.error();
     auto other = std::make_unique<OtherHand>(*recorded, servo);
     servo.set_second(&other->hand);
@@ -99,105 +103,233 @@ struct OtherHand {
   }
 };
 
+// The servo of one part of a session, on the bone as that part began with it. A session that was never
+// continued has one part.
+struct Part {
+  volume::IsoVertices surface;
+  device::ReplayedHand hand;
+  tick::RecordedLaw answers;
+  tick::Servo servo;
+  std::unique_ptr<OtherHand> other;
+  record::CountedOn counted, second_counted;  // what its servo says, as the file says it
+
+  Part(volume::Bone& bone, Recorded& recorded, const record::SessionInfo& info, tick::OwnLaw* law,
+       Progress& progress)
+      : surface(bone, recorded.settings.surface, 2, progress),
+        hand(recorded.device),
+        servo(bone, surface, hand,
+              with_law(recorded.settings.servo, law != nullptr              ? law
+                                                : law_of(info).kind.empty() ? nullptr
+                                                                            : &answers)) {}
+  static Result<std::unique_ptr<Part>> of(const record::SessionInfo& info, const std::string& file,
+                                          volume::Bone& bone, RowLog* log, tick::OwnLaw* law,
+                                          Progress& progress) {
+    auto recorded = settings_of(info, file);
+    if (!recorded) return recorded.error();
+    if (const Status same = check_law(info, law, file); !same) return same.error();
+    if (law != nullptr)
+      if (const Status begun = law->begin(); !begun) return begun.error();
+    auto part = std::make_unique<Part>(bone, *recorded, info, law, progress);
+    if (log != nullptr && log->crossed() != nullptr)
+      part->servo.set_brick_watch(&log->crossed()->written());
+    auto other = OtherHand::of(info, file, part->servo);
+    if (!other) return other.error();
+    part->other = std::move(*other);
+    return part;
+  }
+
+ private:
+  static tick::ServoSettings with_law(tick::ServoSettings settings, tick::OwnLaw* law) {
+    settings.law = law;
+    return settings;
+  }
+};
+
+class Replay {
+ public:
+  Replay(record::Player& player, std::unique_ptr<volume::Bone> bone, Progress& progress,
+         RowLog* log, tick::OwnLaw* law)
+      : player_(player), bone_(std::move(bone)), progress_(progress), log_(log), law_(law) {}
+
+  Result<ReplayOutcome> run();
+
+ private:
+  [[nodiscard]] Status begin(const record::SessionInfo& info);
+  [[nodiscard]] Status reach(std::uint64_t tick);
+  [[nodiscard]] Status take_recorded_bone(std::uint64_t tick);
+  [[nodiscard]] bool gap(const record::Step& step);
+  void step(const record::Step& step);
+  void compare(const record::Step& step, const tick::TickRow& row, const tick::TickRow* second);
+  [[nodiscard]] Status compare_bricks(std::uint64_t tick);
+  void differ(std::uint64_t tick, std::string how) {
+    outcome_.first_different_tick = tick;
+    outcome_.difference = std::move(how);
+  }
+
+  record::Player& player_;
+  std::unique_ptr<volume::Bone> bone_;
+  Progress& progress_;
+  RowLog* log_;
+  tick::OwnLaw* law_;
+  std::unique_ptr<Part> part_;
+  std::size_t next_part_ = 0;  // in player_.continued()
+  ReplayOutcome outcome_;
+  Chains chains_;
+  record::PartEnd hand_, second_hand_;                    // after all ticks so far
+  std::optional<edit::PieceStore::NewBricks> under_way_;  // lives until the servo has written it
+  std::optional<record::BrickCursor> bricks_;
+  tick::BrickRow brick_;
+  bool has_brick_ = false;
+};
+
+Status Replay::begin(const record::SessionInfo& info) {
+  auto part = Part::of(info, player_.path(), *bone_, log_, law_, progress_);
+  if (!part) return part.error();
+  if (part_) {
+    (*part)->counted = record::CountedOn(hand_);
+    (*part)->second_counted = record::CountedOn(second_hand_);
+    outcome_.pieces.none_is_out();
+    under_way_.reset();
+  }
+  part_ = std::move(*part);
+  return fine();
+}
+
+// A part of the session that begins with this tick: another servo, on the bone as it is now.
+Status Replay::reach(std::uint64_t tick) {
+  const auto& parts = player_.continued();
+  if (next_part_ >= parts.size() || parts[next_part_].first_tick != tick) return fine();
+  const record::SessionInfo& info = parts[next_part_++];
+  if (bone_->content_hash() != info.volume.content_hash)
+    if (const Status taken = take_recorded_bone(tick - 1); !taken) return taken;
+  if (bone_->content_hash() != info.volume.content_hash) {
+    differ(tick, "the session was continued with another bone");
+    return fine();
+  }
+  return begin(info);
+}
+
+// A part that was killed recorded its last changes of the bone less far than its ticks. The next part
+// began with the bone that the file holds: what this part wrote is taken back, then done as recorded.
+Status Replay::take_recorded_bone(std::uint64_t tick) {
+  for (volume::BrickIndex brick = 0; brick < bone_->brick_count(); ++brick) {
+    const edit::KeptBrick* kept = part_->servo.undo_store().original_of(brick);
+    if (kept == nullptr) continue;
+    bone_->write_brick(brick, kept->field);
+    const math::Ijk first = bone_->brick_ijk(brick);
+    for (int v = 0; v < volume::kBrickVoxels; ++v) {
+      const math::Ijk at = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
+      if (bone_->grid().contains(at)) bone_->set_tissue(at.x(), at.y(), at.z(), kept->tissue[v]);
+    }
+  }
+  auto again = record::Player::open(player_.path());
+  if (!again) return again.error();
+  return (*again)->bone_at(static_cast<double>(tick) / player_.info().rate_hz, *bone_);
+}
+
+bool Replay::gap(const record::Step& step) {
+  const bool whole = part_->other == nullptr || step.second;
+  if (step.row.tick == outcome_.ticks && whole) return false;
+  ++outcome_.gaps;
+  outcome_.difference = fmt::format(
+      "ticks before {} are missing in the file{}; the ticks after them cannot be compared",
+      step.row.tick + (whole ? 0 : 1), whole ? "" : ", of the second hand");
+  return true;
+}
+
+void Replay::step(const record::Step& step) {
+  tick::Servo& servo = part_->servo;
+  std::optional<edit::PieceStore::NewBricks> moving;
+  std::shared_ptr<const edit::MovedBricks> splinter;  // of this tick
+  for (const tick::Command& command : step.commands) {
+    const bool moves = command.kind == tick::CommandKind::move_piece ||
+                       command.kind == tick::CommandKind::lift_piece;
+    if (moves && !moving) moving = lay_ready(outcome_.pieces, *bone_, command, servo);
+    if (command.kind == tick::CommandKind::take_splinter && !splinter)
+      splinter = lay_splinter(outcome_.pieces, *bone_, command, servo);
+    servo.commands().push(command);
+  }
+  part_->hand.set(step.row.hand);
+  if (part_->other) part_->other->device.set(step.second->hand);
+  part_->answers.set(step.row.law);
+  tick::TickRow row = servo.tick((step.row.contact.flags & rt::kFlagWatchdog) != 0);
+  servo.publish();
+  if (moving && servo.move_state() != tick::MoveState::refused) {
+    outcome_.pieces.accept(*moving);
+    under_way_ = std::move(moving);
+  }
+  part_->counted.change(row);
+  if (log_ != nullptr) log_->note(row);
+  ++outcome_.ticks;
+  hand_ = {outcome_.ticks, row.ledger, row.hash};
+  std::optional<tick::TickRow> second;
+  if (part_->other) {
+    second = part_->other->hand.row();
+    part_->second_counted.change(*second);
+    second_hand_ = {outcome_.ticks, second->ledger, second->hash};
+  }
+  compare(step, row, second ? &*second : nullptr);
+}
+
+// second: of the other hand; nullptr: there is none.
+void Replay::compare(const record::Step& step, const tick::TickRow& row,
+                     const tick::TickRow* second) {
+  if (!chains_.add(step) || !same_undone(step.row, row))
+    return differ(
+        row.tick,
+        "the values in the file do not give the hash beside them, so somebody changed them");
+  const bool same_tool = !player_.tool_is_recorded() || row.tool == step.row.tool;
+  if (row.hash != step.row.hash || !same_tool)
+    return differ(row.tick, same_tool ? difference(step.row, row) : "another tool");
+  if (second != nullptr && second->hash != step.second->hash)
+    differ(row.tick, "second hand: " + difference(*step.second, *second));
+}
+
+Status Replay::compare_bricks(std::uint64_t tick) {
+  for (; has_brick_ && !outcome_.first_different_tick && brick_.tick <= tick;
+       has_brick_ = bricks_->next(brick_)) {
+    if (brick_.tick != tick) continue;
+    if (brick_.brick < 0 || brick_.brick >= bone_->brick_count())
+      return error(
+          fmt::format("{}: changes brick {}, which this bone does not have; give the right bone "
+                      "with `volume`",
+                      player_.path(), brick_.brick));
+    const volume::Field* field = bone_->brick_field(brick_.brick);
+    ++outcome_.bricks;
+    if (field == nullptr || std::memcmp(field, &brick_.field, sizeof brick_.field) != 0)
+      differ(tick, fmt::format("brick {} holds other values", brick_.brick));
+  }
+  return fine();
+}
+
+Result<ReplayOutcome> Replay::run() {
+  if (const Status begun = begin(player_.info()); !begun) return begun.error();
+  record::StepCursor steps = player_.steps();
+  bricks_ = player_.bricks();
+  record::Step one;
+  has_brick_ = bricks_->next(brick_);
+  while (!outcome_.first_different_tick && steps.next(one)) {
+    if (const Status there = reach(one.row.tick); !there) return there.error();
+    if (outcome_.first_different_tick || gap(one)) break;
+    step(one);
+    if (const Status same = compare_bricks(one.row.tick); !same) return same.error();
+    if (outcome_.ticks % 1024 != 0) continue;
+    if (progress_.cancelled()) return error(Trouble::interrupted, "the replay was stopped");
+    progress_.report(static_cast<double>(outcome_.ticks) /
+                         static_cast<double>(std::max<std::uint64_t>(player_.end_tick(), 1)),
+                     "replaying");
+  }
+  progress_.report(1, "replaying");
+  part_.reset();  // before its bone
+  outcome_.bone = std::move(bone_);
+  return std::move(outcome_);
+}
+
 }  // namespace
 
 Result<ReplayOutcome> replay(record::Player& player, std::unique_ptr<volume::Bone> bone,
                              Progress& progress, RowLog* log, tick::OwnLaw* law) {
-  auto recorded = settings_of(player.info(), player.path());
-  if (!recorded) return recorded.error();
-  if (const Status same = check_law(player.info(), law, player.path()); !same) return same.error();
-  tick::RecordedLaw answers;
-  recorded->settings.servo.law = law;
-  if (law != nullptr) {
-    if (const Status begun = law->begin(); !begun) return begun.error();
-  } else if (!law_of(player.info()).kind.empty()) {
-    recorded->settings.servo.law = &answers;
-  }
-  volume::IsoVertices surface(*bone, recorded->settings.surface, 2, progress);
-  device::ReplayedHand hand(recorded->device);
-  tick::Servo servo(*bone, surface, hand, recorded->settings.servo);
-  if (log != nullptr && log->crossed() != nullptr)
-    servo.set_brick_watch(&log->crossed()->written());
-  auto other = OtherHand::of(player, servo);
-  if (!other) return other.error();
-
-  ReplayOutcome outcome;
-  edit::PieceStore& pieces = outcome.pieces;
-  std::optional<edit::PieceStore::NewBricks> under_way;  // lives until the servo has written it
-  record::StepCursor steps = player.steps();
-  Chains chains;
-  record::BrickCursor bricks = player.bricks();
-  record::Step step;
-  tick::BrickRow brick;
-  bool has_brick = bricks.next(brick);
-  while (!outcome.first_different_tick && steps.next(step)) {
-    const bool whole = *other == nullptr || step.second;
-    if (step.gap || step.row.tick != outcome.ticks || !whole) {
-      ++outcome.gaps;
-      outcome.difference = fmt::format(
-          "ticks before {} are missing in the file{}; the ticks after them cannot be compared",
-          step.row.tick + (whole ? 0 : 1), whole ? "" : ", of the second hand");
-      break;
-    }
-    std::optional<edit::PieceStore::NewBricks> moving;
-    std::shared_ptr<const edit::MovedBricks> splinter;  // of this tick
-    for (const tick::Command& command : step.commands) {
-      const bool moves = command.kind == tick::CommandKind::move_piece ||
-                         command.kind == tick::CommandKind::lift_piece;
-      if (moves && !moving) moving = lay_ready(pieces, *bone, command, servo);
-      if (command.kind == tick::CommandKind::take_splinter && !splinter)
-        splinter = lay_splinter(pieces, *bone, command, servo);
-      servo.commands().push(command);
-    }
-    hand.set(step.row.hand);
-    if (*other) (*other)->device.set(step.second->hand);
-    answers.set(step.row.law);
-    const tick::TickRow& row = servo.tick((step.row.contact.flags & rt::kFlagWatchdog) != 0);
-    servo.publish();
-    if (log != nullptr) log->note(row);
-    if (moving && servo.move_state() != tick::MoveState::refused) {
-      pieces.accept(*moving);
-      under_way = std::move(moving);
-    }
-    ++outcome.ticks;
-    const bool unchanged = chains.add(step) && same_undone(step.row, row);
-    const bool same_tool = !player.tool_is_recorded() || row.tool == step.row.tool;
-    if (!unchanged) {
-      outcome.first_different_tick = row.tick;
-      outcome.difference =
-          "the values in the file do not give the hash beside them, so somebody changed them";
-    } else if (row.hash != step.row.hash || !same_tool) {
-      outcome.first_different_tick = row.tick;
-      outcome.difference = same_tool ? difference(step.row, row) : "another tool";
-    } else if (*other && (*other)->hand.row().hash != step.second->hash) {
-      outcome.first_different_tick = row.tick;
-      outcome.difference = "second hand: " + difference(*step.second, (*other)->hand.row());
-    }
-    for (; has_brick && !outcome.first_different_tick && brick.tick <= row.tick;
-         has_brick = bricks.next(brick)) {
-      if (brick.tick != row.tick) continue;
-      if (brick.brick < 0 || brick.brick >= bone->brick_count())
-        return error(
-            fmt::format("{}: changes brick {}, which this bone does not have; give the right bone "
-                        "with `volume`",
-                        player.path(), brick.brick));
-      const volume::Field* field = bone->brick_field(brick.brick);
-      ++outcome.bricks;
-      if (field == nullptr || std::memcmp(field, &brick.field, sizeof brick.field) != 0) {
-        outcome.first_different_tick = row.tick;
-        outcome.difference = fmt::format("brick {} holds other values", brick.brick);
-      }
-    }
-    if (outcome.ticks % 1024 == 0) {
-      if (progress.cancelled()) return error(Trouble::interrupted, "the replay was stopped");
-      progress.report(static_cast<double>(outcome.ticks) /
-                          static_cast<double>(std::max<std::uint64_t>(player.end_tick(), 1)),
-                      "replaying");
-    }
-  }
-  progress.report(1, "replaying");
-  outcome.bone = std::move(bone);
-  return outcome;
+  return Replay(player, std::move(bone), progress, log, law).run();
 }
 
 }  // namespace burr::sim

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdlib>
 #include <iterator>
 
 namespace burr::words {
@@ -116,6 +117,26 @@ const Language* language_of(std::string_view code) {
   for (const Language& one : languages())
     if (one.code == code) return &one;
   return nullptr;
+}
+
+std::string language_for(std::string_view lc_all, std::string_view lc_messages,
+                         std::string_view lang) {
+  const std::string_view first = !lc_all.empty()        ? lc_all
+                                 : !lc_messages.empty() ? lc_messages
+                                                        : lang;
+  std::string code(first.substr(0, first.find_first_of("_.@")));
+  std::transform(code.begin(), code.end(), code.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return language_of(code) != nullptr ? code : languages().front().code;
+}
+
+std::string language_of_environment() {
+  const auto value = [](const char* name) {
+    const char* text = std::getenv(name);
+    return std::string_view(text != nullptr ? text : "");
+  };
+  return language_for(value("LC_ALL"), value("LC_MESSAGES"), value("LANG"));
 }
 
 void speak(std::string_view code) { now = language_of(code); }

@@ -38,6 +38,12 @@ struct Language {
 [[nodiscard]] const Language* language_of(std::string_view code);  // none: nullptr
 
 void speak(std::string_view code);  // an unknown language: English
+// What a user's computer asks for: the first of these three that is not empty, as POSIX says
+// ("sv_SE.UTF-8"). "en" where burr does not know that language.
+[[nodiscard]] std::string language_for(std::string_view lc_all, std::string_view lc_messages,
+                                       std::string_view lang);
+// The same of LC_ALL, LC_MESSAGES and LANG of this process.
+[[nodiscard]] std::string language_of_environment();
 [[nodiscard]] const Language& spoken();
 
 [[nodiscard]] const char* word(Word which);

@@ -104,8 +104,30 @@ io::ReadOptions read_options(const scenario::BoneRecipe& recipe) {
           recipe.check_scan, recipe.read_seconds, recipe.read_memory_mb};
 }
 
-Result<importing::Imported> open_bone(const scenario::BoneRecipe& recipe, Progress& progress,
+// The shares are those of a CT of a head.
+std::vector<base::OneBar::Step> steps_to_bone(const scenario::BoneRecipe& recipe, bool read) {
+  if (scenario::is_phantom(recipe.source))
+    return {{{"shaping bone"}, 0.5}, {{"filling bone"}, 0.3}};
+  if (is_whole_bone(recipe.source)) return {};
+  std::vector<base::OneBar::Step> steps;
+  if (!read) steps.push_back({{"reading", "straightening the slices"}, 0.3});
+  steps.push_back({{"smoothing"}, 0.2});
+  steps.push_back({{"making voxels cubic", "looking for separate parts"}, 0.2});
+  steps.push_back({{"looking for bone", "finding the surface"}, 0.3});
+  return steps;
+}
+
+std::vector<base::OneBar::Step> steps_to_picture(const scenario::BoneRecipe& recipe, bool read) {
+  std::vector<base::OneBar::Step> steps = steps_to_bone(recipe, read);
+  steps.push_back({{"finding the surface", "measuring the distance to structures to spare",
+                    "making the surface"},
+                   0.3});
+  return steps;
+}
+
+Result<importing::Imported> open_bone(const scenario::BoneRecipe& recipe, Progress& whole,
                                       const io::Scan* scan, bool keep_greys) {
+  base::OneBar progress(whole, steps_to_bone(recipe, scan != nullptr));
   for (const std::string& input : {recipe.source, recipe.labels, recipe.materials})
     base::note_input(input);
   if (scenario::is_phantom(recipe.source)) return open_phantom(recipe, progress);

@@ -7,7 +7,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "burr/base/one_bar.h"
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/importing/import.h"
@@ -22,7 +24,14 @@ namespace burr::workshop {
 // True: a .bone file, which holds a bone to the bit, as `burr phantom --out X.bone` writes it.
 [[nodiscard]] bool is_whole_bone(const std::string& source);
 
-// scan: the content of the source if it has been read before; it is then not read again.
+// What there is to do, for one bar (base/one_bar.h). read: the scan has been read before.
+[[nodiscard]] std::vector<base::OneBar::Step> steps_to_bone(const scenario::BoneRecipe& recipe,
+                                                            bool read = false);
+// The same with the surface of a session and of its picture.
+[[nodiscard]] std::vector<base::OneBar::Step> steps_to_picture(const scenario::BoneRecipe& recipe,
+                                                               bool read = false);
+
+// Progress is told as one bar, "2 of 4: smoothing". scan: the content of the source if it has been read before; it is then not read again.
 // keep_greys: keep the values of a grey scan, so that slices can be shown.
 [[nodiscard]] Result<importing::Imported> open_bone(const scenario::BoneRecipe& recipe,
                                                     Progress& progress,

@@ -12,12 +12,15 @@ using math::Quat;
 void OutPieces::read_orders() {
   orders_.emplace();
   record::StepCursor steps = player_.steps();
-  for (record::Step step; steps.next(step);)
+  bool anew = false;  // the session was continued since the last order
+  for (record::Step step; steps.next(step);) {
+    anew = anew || player_.begins_part(step.row.tick);
     for (const tick::Command& command : step.commands) {
       const bool lifts = command.kind == tick::CommandKind::lift_piece;
       if (lifts || command.kind == tick::CommandKind::move_piece)
-        orders_->push_back({step.row.tick, lifts, command.move});
+        orders_->push_back({step.row.tick, lifts, std::exchange(anew, false), command.move});
     }
+  }
 }
 
 // Every order up to that tick, as the session's own store had it.
@@ -25,6 +28,7 @@ Status OutPieces::follow(std::uint64_t tick, volume::Bone& bone) {
   for (; followed_ < orders_->size() && (*orders_)[followed_].tick <= tick; ++followed_) {
     const Order& order = (*orders_)[followed_];
     if (order.tick == 0) continue;
+    if (order.anew) store_.none_is_out();
     const double before = static_cast<double>(order.tick - 1) / player_.info().rate_hz;
     if (const Status there = player_.bone_at(before, bone); !there) return there;
     const auto prepared =

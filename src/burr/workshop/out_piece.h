@@ -45,6 +45,7 @@ class OutPieces {
   struct Order {  // a command that moves or lifts a piece
     std::uint64_t tick = 0;
     bool lifts = false;
+    bool anew = false;  // the first one after the session was continued
     edit::PieceMove move;
   };
   struct Shape {

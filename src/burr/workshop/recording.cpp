@@ -55,8 +55,8 @@ Result<std::unique_ptr<record::Recorder>> record(sim::Session& session, const st
   info.volume.recipe = scenario::without_paths(about.recipe);
   auto recorder = std::make_unique<record::Recorder>(
       info.rate_hz, kBrickRows, session.settings().realtime, second != nullptr);
-  const Status started =
-      recorder->start(file, info, about.embed ? &bone : nullptr, std::move(on_trouble));
+  const Status started = recorder->start(file, info, about.embed ? &bone : nullptr,
+                                         std::move(on_trouble), about.earlier.get());
   if (!started) return started.error();
   session.set_recorder(recorder.get());
   // a list that cannot be written harms nobody: the scan is then found as without a list

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "burr/base/result.h"
+#include "burr/record/earlier_part.h"
 #include "burr/record/identity.h"
 #include "burr/record/recorder.h"
 #include "burr/scenario/case.h"
@@ -37,6 +38,9 @@ struct About {
   record::Identity identity = {};
   // where the place of the scan is remembered, for example record::scan_list(); empty: nowhere
   std::string scan_list = {};
+  // The recording that this one goes on with, in the same file (record/earlier_part.h); none: a new
+  // one.
+  std::shared_ptr<const record::EarlierPart> earlier = {};
 };
 // For a session that was made from `prepared`, with the tissues that its case spares. bone: that of
 // the session.

@@ -346,9 +346,10 @@ Status choose_series(Desk& desk, OpenedScan& opened, const std::string& title, d
   return fine();
 }
 
-Result<WindowSession> ready_from(WorkOptions options, const io::Scan& scan, Progress& progress) {
+Result<WindowSession> ready_from(WorkOptions options, const io::Scan& scan, Progress& whole) {
   if (const Status taken = take_case(options); !taken) return taken.error();
   options.keep_greys = true;
+  base::OneBar progress(whole, workshop::steps_to_picture(options.volume, true));
   auto work = open_work(options, progress, &scan);
   if (!work) return work.error();
   return make_window_session(options, std::move(*work), progress);

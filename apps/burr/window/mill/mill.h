@@ -56,6 +56,7 @@ class Mill {
   void draw_figures();
   void draw_menu_panel();
   void pages();
+  [[nodiscard]] Word becomes_of_it() const;
   void keep_device_preferences();
   void leave_picture();
 

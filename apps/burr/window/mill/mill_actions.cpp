@@ -128,10 +128,16 @@ void MillActions::go_back() {
   }
 }
 
-// Leaves the page. If a file is still being written, only the second call does.
+// Asks first, whatever the wish came from: the work of an hour hangs on it. A second wish of the same
+// kind, while the question is open, is the answer.
 void MillActions::leave() {
-  if (!over_.pages->exporting().progress().empty() && !std::exchange(leaves_, true))
-    return notes_.note(word(Word::export_wait));
+  if (over_.pages->asks_leave()) return end_as_left();
+  parts_.hand.lift();
+  over_.menu.reset();
+  over_.pages->ask_leave();
+}
+
+void MillActions::end_as_left() {
   closed_ = Closed::page;
   open_ = false;
 }
@@ -178,8 +184,9 @@ void MillActions::declare_done() {
   }
 }
 
-void MillActions::answer_done() {
-  if (over_.pages->asks_done()) end_as_done();
+void MillActions::answer() {
+  if (over_.pages->asks_done()) return end_as_done();
+  if (over_.pages->asks_leave()) end_as_left();
 }
 
 void MillActions::end_as_done() {

@@ -25,7 +25,7 @@ class MillActions {
         parts_(parts) {}
 
   void act(Action action);
-  // Closes what is open on the page; if nothing is, the page itself.
+  // Closes what is open on the page; if nothing is, asks whether to leave it.
   void go_back();
   void toggle_menu(Menu menu);
   void hide_panels();
@@ -33,8 +33,9 @@ class MillActions {
   void change_loudness(int by);
   // The work is done: asks, if that ends the session; otherwise declares it or takes it back.
   void declare_done();
-  void answer_done();  // the question, if it is open
+  void answer();  // yes to the question that is open, if one is
   void end_as_done();
+  void end_as_left();
   void quit() { open_ = false; }  // the program
 
   [[nodiscard]] bool open() const { return open_; }
@@ -58,7 +59,6 @@ class MillActions {
   MillOver& over_;
   MillParts& parts_;
   bool open_ = true, picture_ = false;
-  bool leaves_ = false;  // leave, even if a file is still being written
   Closed closed_ = Closed::window;
 };
 

@@ -18,11 +18,15 @@ MillCase::MillCase(volume::Bone& bone, double rate_hz, render::Scene& scene,
                    const WindowOptions& options, const tick::TickRow& row, MillNotes& notes)
     : bone_(bone), rate_hz_(rate_hz), scene_(scene), options_(options), row_(row), notes_(notes) {
   if (options_.lesson) steps_ = guidance::Steps(options_.lesson->steps);
+  if (steps_offered()) steps_.take_up(options_.left.course);
   take_titles_of(options_.lesson ? &*options_.lesson : nullptr);
 }
 
 void MillCase::begin() {
   if (!steps_.empty()) watch_.emplace(bone_, *options_.lesson);
+  if (options_.diary == nullptr || !options_.left.declared_done) return;
+  options_.diary->was_declared_done();
+  if (!options_.done_ends) notes_.note(word(Word::done_declared));
 }
 
 void MillCase::end(bool time_over) {
@@ -264,7 +268,8 @@ MillCase::Done MillCase::declare_done(bool asked) {
   }
   if (asked) return Done::ends;
   // where nothing was done there is nothing to mark
-  if (row_.ledger.removed <= 0 && row_.ledger.added <= 0) return answer(Word::done_nothing);
+  if (!(options_.earlier.removed > 0) && row_.ledger.removed <= 0 && row_.ledger.added <= 0)
+    return answer(Word::done_nothing);
   return Done::asks;
 }
 

@@ -165,6 +165,7 @@ void MillInput::pad_button(Uint8 button) {
   };
   if (button == SDL_CONTROLLER_BUTTON_BACK) return actions_.go_back();
   if (over_.page()) {
+    if (button == SDL_CONTROLLER_BUTTON_A) return actions_.answer();
     if (button == SDL_CONTROLLER_BUTTON_START || button == SDL_CONTROLLER_BUTTON_B)
       actions_.go_back();
     return;

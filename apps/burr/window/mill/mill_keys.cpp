@@ -283,7 +283,7 @@ KeyRows tool_keys() {
 
 KeyRows program_keys() {
   const auto done = [](MillActions& m) { m.declare_done(); };
-  const auto answer = [](MillActions& m) { m.answer_done(); };
+  const auto answer = [](MillActions& m) { m.answer(); };
   return {
       {HelpBlock::program,
        "Tab",
@@ -355,12 +355,21 @@ std::string key_name(SDL_Keycode code, unsigned held) {
 // Of the menu of views.
 bool in_views(HelpBlock block) { return block == HelpBlock::view; }
 
+// Ctrl + A is known from fields, Ctrl + C from copying: a letter with Ctrl does what the table gives to
+// both together, never what it gives to the letter alone.
+bool fits(const Key& key, const SDL_Keysym& pressed) {
+  if (key.code != pressed.sym) return false;
+  if (key.held != 0) return (pressed.mod & key.held) != 0;
+  const bool letter = key.code >= SDLK_a && key.code <= SDLK_z;
+  return !letter || (pressed.mod & (KMOD_CTRL | KMOD_GUI)) == 0;
+}
+
 }  // namespace
 
 bool press_key(MillActions& actions, const SDL_Keysym& pressed, bool left_handed) {
   for (const KeyRow& row : key_rows(left_handed))
     for (const Key& key : row.keys)
-      if (key.code == pressed.sym && (key.held == 0 || (pressed.mod & key.held) != 0)) {
+      if (fits(key, pressed)) {
         key.does(actions);
         return true;
       }

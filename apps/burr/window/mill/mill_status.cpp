@@ -197,15 +197,24 @@ void Mill::pages() {
   const device::DeviceSpec spec =
       hands_.real != nullptr ? hands_.real->spec() : device::DeviceSpec();
   DeviceLeaf device{hands_.id, spec.peak_force, spec.peak_torque > 0, hands_.preferences};
-  const OverPages::Changed changed =
-      over_.pages->draw(hands_.real != nullptr ? &device : nullptr, parts_.work_case.open_steps());
+  const OverPages::Changed changed = over_.pages->draw(
+      hands_.real != nullptr ? &device : nullptr, parts_.work_case.open_steps(), becomes_of_it());
   if (changed.done) actions_.end_as_done();
+  if (changed.leave) actions_.end_as_left();
   if (changed.device) keep_device_preferences();
   if (changed.force_limit)
     session_.command({tick::CommandKind::user_force, parts_.hand.user_limit()});
   if (!changed.settings) return;
   parts_.hand.take_settings();
   note_troubles();
+}
+
+// Of the session, if it is left now.
+Word Mill::becomes_of_it() const {
+  const Word told = options_.left_as ? options_.left_as() : Word::leave_told_lost;
+  const bool worked =
+      row_.ledger.removed > 0 || row_.ledger.added > 0 || options_.earlier.seconds > 0;
+  return told == Word::leave_told_kept && !worked ? Word::leave_told_nothing : told;
 }
 
 // Saves them in the book of devices; the new force limit is used at once.

@@ -34,7 +34,8 @@ MillTools::MillTools(const MillSite& site, MillCase& work_case, const WornHeadse
       drill_(site.session, site.scene.burr),
       rack_(site.options.rack),
       mirror_(site.session.bone().grid()),
-      looks_(site.session.settings().servo.tools) {
+      looks_(site.session.settings().servo.tools),
+      suction_(site.options.left.suction) {
   grip_.take(rack_.tool(drill_.tool()));
 }
 

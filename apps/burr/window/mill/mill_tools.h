@@ -101,7 +101,7 @@ class MillTools {
   render::HeldTool held_;      // how a tool without an orientation of its own is drawn
   Clock::time_point held_at_{};
   int renewed_ = 0;  // the window, so far: its textures are new
-  bool suction_ = false;
+  bool suction_;
   Clock::time_point sucked_{};
   SuctionTube tube_;
 };

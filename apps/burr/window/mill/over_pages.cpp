@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "window/ui/help.h"
@@ -18,7 +19,7 @@ OverPages::OverPages(Desk& desk, sim::Session& session, const render::Scene& sce
 
 void OverPages::close() {
   if (export_.choosing()) return export_.stop_choosing();
-  help_ = settings_ = asks_done_ = false;
+  help_ = settings_ = asks_done_ = asks_leave_ = false;
   export_.show(false);
 }
 
@@ -41,36 +42,62 @@ void OverPages::toggle_export() {
   export_.show(shown);
 }
 
-bool OverPages::draw_question(std::size_t open_steps) {
-  Ui& ui = desk_.ui();
+namespace {
+
+// A question with two buttons. told: what the answer does; warning: what there is to know first, or
+// "". Returns true for yes, false for no, nothing while it is open.
+std::optional<bool> ask(Ui& ui, const char* name, Word title, const std::string& told,
+                        const std::string& warning, Word yes, Word no) {
   const float u = ui.unit(), w = 520 * u, h = 190 * u;
   const float x = (ui.width() - w) / 2, y = (ui.height() - h) / 2;
-  ui.page("##done", x, y, w, h);
-  ui.write(x + 28 * u, y + 20 * u, Ui::Letter::large, ink::kText, word(Word::done_title));
+  ui.page(name, x, y, w, h);
+  ui.write(x + 28 * u, y + 20 * u, Ui::Letter::large, ink::kText, word(title));
   ImGui::SetCursorScreenPos({x + 28 * u, y + 58 * u});
   ImGui::PushTextWrapPos(w - 28 * u);
-  ImGui::TextUnformatted(word(Word::done_told));
-  if (open_steps > 0) {
+  ui.tell(told);
+  ImGui::TextUnformatted(told.c_str());
+  if (!warning.empty()) {
     ImGui::SetCursorPosX(28 * u);
     ImGui::PushStyleColor(ImGuiCol_Text, ink::kWarn);
-    ImGui::TextUnformatted(say(Word::done_open_steps, open_steps).c_str());
+    ImGui::TextUnformatted(warning.c_str());
     ImGui::PopStyleColor();
   }
   ImGui::PopTextWrapPos();
   ImGui::SetCursorScreenPos({x + 28 * u, y + h - 50 * u});
-  const bool yes =
-      ImGui::Button(fmt::format("{}  [{}]", word(Word::done_yes), word(Word::key_enter)).c_str());
+  std::optional<bool> answer;
+  if (ImGui::Button(fmt::format("{}  [{}]", word(yes), word(Word::key_enter)).c_str()))
+    answer = true;
   ImGui::SameLine();
-  if (ImGui::Button(fmt::format("{}  [Esc]", word(Word::done_no)).c_str())) asks_done_ = false;
+  if (ImGui::Button(fmt::format("{}  [Esc]", word(no)).c_str())) answer = false;
   ImGui::End();
-  return yes;
+  return answer;
 }
 
-OverPages::Changed OverPages::draw(DeviceLeaf* device, std::size_t open_steps) {
+}  // namespace
+
+bool OverPages::draw_done(std::size_t open_steps) {
+  const std::string warning =
+      open_steps > 0 ? say(Word::done_open_steps, open_steps) : std::string();
+  const auto answer = ask(desk_.ui(), "##done", Word::done_title, word(Word::done_told), warning,
+                          Word::done_yes, Word::done_no);
+  if (answer) asks_done_ = *answer;
+  return answer.value_or(false);
+}
+
+bool OverPages::draw_leave(Word told) {
+  const auto answer = ask(desk_.ui(), "##leave", Word::leave_title, word(told),
+                          export_.progress().empty() ? "" : word(Word::leave_writes),
+                          Word::leave_yes, Word::leave_no);
+  if (answer) asks_leave_ = *answer;
+  return answer.value_or(false);
+}
+
+OverPages::Changed OverPages::draw(DeviceLeaf* device, std::size_t open_steps, Word leaving) {
   if (help_) help_ = draw_help(desk_.ui(), help_rows_(desk_.settings.left_handed), help_pads_);
   if (export_.shown()) export_.draw();
   if (settings_) return draw_settings_page(device);
-  return {.done = asks_done_ && draw_question(open_steps)};
+  if (asks_leave_) return {.leave = draw_leave(leaving)};
+  return {.done = asks_done_ && draw_done(open_steps)};
 }
 
 OverPages::Changed OverPages::draw_settings_page(DeviceLeaf* device) {

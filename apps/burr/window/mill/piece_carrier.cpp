@@ -35,7 +35,7 @@ PieceCarrier::PieceCarrier(const MillSite& site, const Pointer& pointer, MillToo
       tools_(tools) {}
 
 void PieceCarrier::begin() {
-  pieces_.emplace(session_, options_.lesson ? &*options_.lesson : nullptr);
+  pieces_.emplace(session_, options_.lesson ? &*options_.lesson : nullptr, options_.left.pieces);
 }
 
 void PieceCarrier::end() {

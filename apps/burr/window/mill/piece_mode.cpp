@@ -49,8 +49,9 @@ double degrees_of(const Quat& q) { return math::rotation_vector(q).norm() / kDeg
 
 }  // namespace
 
-PieceMode::PieceMode(sim::Session& session, const scenario::CaseLesson* lesson)
-    : session_(session), lesson_(lesson), mover_(session) {}
+PieceMode::PieceMode(sim::Session& session, const scenario::CaseLesson* lesson,
+                     edit::PieceStore moved)
+    : session_(session), lesson_(lesson), mover_(session, std::move(moved)) {}
 
 std::string PieceMode::look(bool open, const tick::TickRow& row) {
   std::string text;

@@ -28,8 +28,9 @@ class PieceMode {
   static constexpr double kStep = 0.5e-3, kFineStep = 0.1e-3;  // of a key                [m]
   static constexpr double kTurn = 1, kFineTurn = 0.2;          // of a key           [degree]
 
-  // Before the session starts. lesson: nullptr without a case; must outlive this.
-  PieceMode(sim::Session& session, const scenario::CaseLesson* lesson);
+  // Before the session starts. lesson: nullptr without a case; must outlive this. moved: in the
+  // earlier parts of a session that is continued.
+  PieceMode(sim::Session& session, const scenario::CaseLesson* lesson, edit::PieceStore moved = {});
 
   // Once a picture. What the user should read; empty: nothing new. open: the panel is shown.
   // row: the newest one.

@@ -215,6 +215,7 @@ void Mill::end(workshop::LiveSurface& live) {
   session_.stop();
   static_cast<void>(session_.view(row_));  // the last one
   parts_.work_case.end(time_over_);
+  if (options_.suction_left) options_.suction_left(parts_.tools.sucks());
   parts_.view.end();
   live.look_plain();
   worker_.hold_back(false);

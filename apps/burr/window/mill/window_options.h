@@ -14,6 +14,8 @@
 #include "burr/volume/greys.h"
 #include "burr/workshop/allowed.h"
 #include "burr/workshop/spared_distance.h"
+#include "shared/left_session.h"
+#include "shared/word_names.h"
 #include "shared/work.h"
 #include "window/mill/loudspeaker.h"
 #include "window/parts/film_job.h"
@@ -24,6 +26,7 @@ namespace burr::app {
 struct WindowOptions {
   std::string title = {};                     // of the work, on the window's frame; empty: burr
   Earlier earlier = {};                       // counted with this session's time and volume
+  LeftSession left = {};                      // by the session that this one continues
   std::vector<scenario::RackTool> rack = {};  // in the order of the session's list of tools
   double seconds = 0;                         // closes after this time; 0: when the user closes it
   std::string folder = {};                    // for pictures of the key P; empty: the start folder
@@ -33,6 +36,8 @@ struct WindowOptions {
   std::function<std::string()> warning = {};
   // marks this session as one to keep; false: there is nothing to keep
   std::function<bool()> keep = {};
+  // what becomes of the session when it is left; none: it is lost
+  std::function<words::Word()> left_as = {};
   // source for a film of the session so far; none: it is not recorded
   std::function<std::optional<FilmSource>()> film_of = {};
   const workshop::SparedDistance* spared_distance =
@@ -44,6 +49,8 @@ struct WindowOptions {
   record::Mode mode = record::Mode::free;           // what the session is for
   workshop::Allowed allowed =                       // and what it offers
       workshop::allowed_in(record::Mode::free, {}, true);
+  // called while the page is left: the suction beside the burr is on
+  std::function<void(bool)> suction_left = {};
   bool done_ends = false;          // to declare the work done ends the session; marks follow
   record::Diary* diary = nullptr;  // of the recording; nullptr: it is not recorded
 };

@@ -8,20 +8,25 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "burr/base/new_file.h"
+#include "burr/base/one_bar.h"
+#include "burr/base/printable.h"
 #include "burr/base/text_file.h"
 #include "burr/base/toml_text.h"
 #include "burr/record/player.h"
 #include "burr/record/rename_and_sync.h"
-#include "burr/report/questions.h"
 #include "burr/scenario/rack.h"
+#include "burr/school/uuid.h"
+#include "burr/sim/move_pieces.h"
+#include "burr/workshop/open_bone.h"
 #include "burr/workshop/prepare.h"
 #include "burr/workshop/recorded_bone.h"
-#include "burr/workshop/recording.h"
-#include "shared/front_words.h"
+#include "shared/word_names.h"
 #include "shared/work.h"
 
 namespace burr::app {
@@ -53,26 +58,24 @@ Status write_text(const fs::path& path, const std::string& text) {
   return file->put_in_place();
 }
 
-// Creates a folder that only its owner can read.
-Status make_folder(const fs::path& folder) {
-  std::error_code trouble;
-  fs::create_directories(folder, trouble);
-  if (!trouble) fs::permissions(folder, fs::perms::owner_all, trouble);
-  if (!trouble) return fine();
-  return error(Trouble::io, fmt::format("{}: cannot be made ({}); this session is not saved",
-                                        folder.string(), trouble.message()));
-}
-
 fs::path beside(const fs::path& recording, const char* ending) {
   fs::path account = recording;
   return account.replace_extension(ending);
 }
 
-void remove_session(const fs::path& recording) {
-  std::error_code nobody_asks;
-  for (const fs::path& one : {recording, beside(recording, ".json"), beside(recording, ".toml"),
-                              beside(recording, ".html")})
-    fs::remove(one, nobody_asks);
+json texts_to_json(const scenario::Texts& texts) {
+  json object = json::object();
+  for (const Language& one : languages())
+    if (const std::string& text = texts.in(one.code); !text.empty()) object[one.code] = text;
+  return object;
+}
+
+scenario::Texts texts_from_json(const json& object) {
+  scenario::Texts texts;
+  if (!object.is_object()) return texts;
+  for (const auto& [code, text] : object.items())
+    if (text.is_string()) texts.by_language[code] = text.get<std::string>();
+  return texts;
 }
 
 bool read_account(const fs::path& account, KeptSession& kept) {
@@ -83,7 +86,7 @@ bool read_account(const fs::path& account, KeptSession& kept) {
   const auto recipe =
       scenario::recipe_from_json(object["recipe"].dump(), account.filename().string());
   if (!recipe) return false;
-  const auto word = [&object](const char* key) {
+  const auto text_at = [&object](const char* key) {
     const auto at = object.find(key);
     return at != object.end() && at->is_string() ? at->get<std::string>() : std::string();
   };
@@ -95,15 +98,22 @@ bool read_account(const fs::path& account, KeptSession& kept) {
     const auto at = object.find(key);
     return at != object.end() && at->is_boolean() && at->get<bool>();
   };
-  kept.title = word("title");
-  kept.when = word("when");
+  kept.title = text_at("title");
+  kept.titles = texts_from_json(object.value("titles", json()));
+  kept.name = text_at("name");
+  kept.when = text_at("when");
+  kept.suction = flag("suction");
+  record::Identity& who = kept.options.identity;
+  who.mode = record::mode_of(text_at("mode")).value_or(record::Mode::free);
+  if (record::check_pseudonym(text_at("learner"))) who.learner = text_at("learner");
+  who.attempt = static_cast<std::uint32_t>(std::clamp(number("attempt"), 0.0, 1e5));
   kept.seconds = number("seconds");
   kept.removed_mm3 = number("removed_mm3");
   kept.earlier = {number("seconds_before"), 1e-9 * number("removed_before_mm3")};
   kept.clean = flag("clean");
   kept.keep = flag("keep");
   kept.marks = flag("marks");
-  kept.rubric = word("rubric");
+  kept.rubric = text_at("rubric");
   kept.options.volume = *recipe;
   kept.options.burr_mm = number("burr_mm");
   kept.options.rpm = number("rpm");
@@ -116,6 +126,7 @@ bool read_old_account(const fs::path& account, KeptSession& kept) {
   if (!text) return false;
   const auto table = parse_toml(*text, account.filename().string());
   if (!table) return false;
+  kept.has_account = false;
   kept.title = word_of(*table, "title");
   kept.when = word_of(*table, "when");
   kept.seconds = number_of(*table, "seconds");
@@ -137,7 +148,81 @@ bool read_old_account(const fs::path& account, KeptSession& kept) {
   return !recipe.source.empty();
 }
 
+// When it was worked on last, to the minute: "202611221931". An account without it leaves the time that the
+// name of the file contains.
+std::string minute_of(const KeptSession& kept) {
+  std::string digits = kept.when.empty() ? kept.file.stem().string() : kept.when;
+  std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
+  return digits.substr(0, std::string_view("yyyymmddhhmm").size());
+}
+
+// The one that was worked on last comes first.
+bool newer(const KeptSession& a, const KeptSession& b) {
+  const std::string at = minute_of(a), bt = minute_of(b);
+  return at != bt ? at > bt : a.file.filename() > b.file.filename();
+}
+
 }  // namespace
+
+std::string time_now() { return fmt::format("{:%Y-%m-%d %H:%M}", local_now()); }
+std::string name_now() { return fmt::format("session_{:%Y%m%d_%H%M%S}", local_now()); }
+
+Status make_own_folder(const fs::path& folder) {
+  std::error_code trouble;
+  fs::create_directories(folder, trouble);
+  if (!trouble) fs::permissions(folder, fs::perms::owner_all, trouble);
+  if (!trouble) return fine();
+  return error(Trouble::io, fmt::format("{}: cannot be made ({}); this session is not saved",
+                                        folder.string(), trouble.message()));
+}
+
+fs::path picture_of(const fs::path& recording) { return beside(recording, ".ppm"); }
+
+void remove_session(const fs::path& recording) {
+  std::error_code nobody_asks;
+  for (const fs::path& one : {recording, beside(recording, ".json"), beside(recording, ".toml"),
+                              beside(recording, ".html"), picture_of(recording)})
+    fs::remove(one, nobody_asks);
+}
+
+Status write_account(const KeptSession& kept) {
+  const record::Identity& who = kept.options.identity;
+  const json account = {{"title", kept.title},
+                        {"titles", texts_to_json(kept.titles)},
+                        {"name", kept.name},
+                        {"when", kept.when},
+                        {"recipe", json::parse(scenario::to_json(kept.options.volume))},
+                        {"mode", record::word_of(who.mode)},
+                        {"learner", who.learner},
+                        {"attempt", who.attempt},
+                        {"burr_mm", kept.options.burr_mm},
+                        {"rpm", kept.options.rpm},
+                        {"suction", kept.suction},
+                        {"seconds", kept.seconds},
+                        {"seconds_before", kept.earlier.seconds},
+                        {"removed_before_mm3", 1e9 * kept.earlier.removed},
+                        {"removed_mm3", kept.removed_mm3},
+                        {"clean", kept.clean},
+                        {"keep", kept.keep},
+                        {"rubric", kept.rubric},
+                        {"marks", kept.marks}};
+  return write_text(beside(kept.file, ".json"),
+                    account.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+std::string shown_title(const KeptSession& kept) {
+  if (!kept.name.empty()) return kept.name;
+  const std::string& title = kept.titles.in(spoken().code);
+  return title.empty() ? name_of_work(kept.title) : title;
+}
+
+Status name_session(KeptSession& kept, const std::string& name) {
+  if (!kept.has_account) return error(Trouble::usage, word(Word::session_no_name));
+  const std::string before = std::exchange(kept.name, base::printable(name, kLongestName));
+  const Status written = write_account(kept);
+  if (!written) kept.name = before;
+  return written;
+}
 
 std::vector<KeptSession> kept_sessions(const fs::path& state) {
   std::vector<KeptSession> all;
@@ -154,24 +239,22 @@ std::vector<KeptSession> kept_sessions(const fs::path& state) {
         read_old_account(beside(kept.file, ".toml"), kept))
       all.push_back(std::move(kept));
   }
-  // the names contain the time
   std::sort(all.begin(), all.end(), [](const KeptSession& a, const KeptSession& b) {
-    return a.clean != b.clean ? !a.clean : a.file.filename() > b.file.filename();
+    return a.clean != b.clean ? !a.clean : newer(a, b);
   });
   return all;
 }
 
-void throw_old_away(const fs::path& state, const Settings& settings) {
+void throw_old_away(const fs::path& state, const Settings& settings, const fs::path& needed) {
   std::vector<KeptSession> all = kept_sessions(state);
-  std::sort(all.begin(), all.end(), [](const KeptSession& a, const KeptSession& b) {
-    return a.file.filename() > b.file.filename();
-  });
+  std::sort(all.begin(), all.end(), newer);
   double count = 0, mb = 0;
   for (const KeptSession& kept : all) {
     count += 1;
     mb += 1e-6 * static_cast<double>(kept.bytes);
     // the newest stays whatever its size, because the user may want to continue it
-    if (kept.keep || count <= 1 || (count <= settings.sessions_kept && mb <= settings.sessions_mb))
+    if (kept.keep || kept.file == needed || count <= 1 ||
+        (count <= settings.sessions_kept && mb <= settings.sessions_mb))
       continue;
     remove_session(kept.file);
   }
@@ -192,7 +275,7 @@ void go_on(record::Player& player, const KeptSession& kept, WorkOptions& options
   options.burr_mm = 2e3 * tool.radius;
   options.kind = tool.kind;
   options.mode = tool.mode;
-  options.irrigated = tool.irrigated;
+  options.irrigated = tool.irrigated;  // also where the case says otherwise
   const std::vector<tool::ShapedTool>& tools = player.info().tools;
   options.tool.tool.clear();  // a tool that the rack no longer has gives way to the round burr
   if (tool.number < 0) options.rpm = tool.full_speed * 60 / (2 * std::numbers::pi);
@@ -201,29 +284,46 @@ void go_on(record::Player& player, const KeptSession& kept, WorkOptions& options
   if (scenario::built_in_rack().find(name) != nullptr) options.tool.tool = name;
 }
 
+// What the recording says of the session beside its ticks: it goes on.
+void take_up(record::Player& player, const KeptSession& kept, LeftSession& left) {
+  left.suction = kept.suction;
+  left.course = player.course();
+  for (const record::CourseEvent& event : left.course) {
+    if (event.kind == record::CourseKind::done) left.declared_done = true;
+    if (event.kind == record::CourseKind::reopened) left.declared_done = false;
+  }
+  auto part = player.earlier_part();
+  if (!part) return;
+  if (const auto hash = school::sha1_of_file(player.path())) part->sha1 = *hash;
+  left.part = std::make_shared<const record::EarlierPart>(std::move(*part));
+}
+
+// The case comes from the recording, because its file may have changed or be gone; only its volume is
+// known by the file.
+Status take_recorded_case(const record::SessionInfo& recorded, WorkOptions& options) {
+  const Result<scenario::Case> work =
+      recorded.work_case ? record::case_of(recorded) : error("no case");
+  if (!work || !work->volume.empty()) return take_case(options);
+  take_case(options, *work);
+  return fine();
+}
+
 }  // namespace
 
-Result<WindowSession> continue_session(const KeptSession& kept, Progress& progress) {
+Result<WindowSession> continue_session(const KeptSession& kept, Progress& whole) {
   WorkOptions options = kept.options;
   auto player = record::Player::open(kept.file.string());
   if (!player) return player.error();
-  // the case comes from the recording, because its file may have changed or be gone; only its
-  // volume is known by the file
   const record::SessionInfo& recorded = (*player)->info();
-  Result<scenario::Case> work_case =
-      recorded.work_case ? record::case_of(recorded) : error("no case");
-  if (work_case && work_case->volume.empty()) {
-    take_case(options, *work_case);
-  } else {
-    const Status taken = take_case(options);
-    if (!taken) return taken.error();
-  }
+  if (recorded.identity) options.identity = *recorded.identity;
+  if (const Status taken = take_recorded_case(recorded, options); !taken) return taken.error();
+  base::OneBar progress(whole, workshop::steps_to_picture(options.volume));
 
   // the recording leads to a formula or an embedded bone; a scan is found by the user's own path
   std::error_code nobody_asks;
   const bool scan = fs::exists(options.volume.source, nobody_asks);
   scenario::BoneRecipe given = options.volume;
-  if ((*player)->info().embedded || !scan) given.source.clear();
+  if (recorded.embedded || !scan) given.source.clear();
   auto bone = workshop::bone_of(**player, given, progress);
   if (!bone) return bone.error();
   workshop::PreparedBone work;
@@ -231,110 +331,54 @@ Result<WindowSession> continue_session(const KeptSession& kept, Progress& progre
   auto place = surgeon::find_work_place(**bone, 0.5e-3 * options.burr_mm, options.at, options.into);
   if (!place) return place.error();
   work.place = *place;
+  LeftSession left;
+  if (sim::moves_pieces(**player)) {
+    auto pieces = sim::moved_in(**player, **bone);
+    if (!pieces) return pieces.error();
+    left.pieces = std::move(*pieces);
+    left.pieces.none_is_out();
+  }
   const Status there = (*player)->bone_at(1e9, **bone);
   if (!there) return there.error();
   work.bone = std::move(*bone);
+  take_up(**player, kept, left);
+  // what was handed in is not worked on further; without an exam one learns from it
+  if (options.identity.mode == record::Mode::exam && left.declared_done)
+    return error(Trouble::usage, word(Word::exam_handed_in));
   go_on(**player, kept, options);
   if (scan) work.greys = workshop::greys_of(**player, options.volume, progress);
-  const std::string& format = (*player)->info().volume.format;
+  const std::string& format = recorded.volume.format;
   work.summary.format = format.empty() ? "recording" : format;
   work.recipe = options.volume;
   workshop::fit_burr(options.burr_mm, work.bone->grid().voxel, work.summary.notices);
   work.what = kept.title;
   if (options.title.empty()) options.title = kept.title;
-  return make_window_session(options, std::move(work), progress);
-}
-
-// ---- a session being kept
-
-Autosave::Autosave(const fs::path& state, WindowSession& ready, const WorkOptions& options,
-                   bool embed, const Settings& settings)
-    : session_(*ready.session) {
-  if (state.empty()) return;
-  const fs::path folder = state / "sessions";
-  Status made = make_folder(folder);
-  if (made) {
-    kept_.title = ready.title;
-    kept_.options = options;
-    kept_.earlier = ready.earlier;
-    kept_.marks =
-        ready.work_case && ready.allowed.marks && !report::questions_on(*ready.work_case).empty();
-    std::error_code nobody_asks;
-    if (ready.work_case) kept_.rubric = report::rubric_of(*ready.work_case);
-    if (const fs::path there = fs::absolute(kept_.rubric, nobody_asks);
-        fs::exists(kept_.rubric, nobody_asks))
-      kept_.rubric = there.string();
-    if (const fs::path there = fs::absolute(options.volume.source, nobody_asks);
-        fs::exists(options.volume.source, nobody_asks))
-      kept_.options.volume.source = there.string();
-    const std::tm now = local_now();
-    kept_.when = fmt::format("{:%Y-%m-%d %H:%M}", now);
-    const std::string name = fmt::format("session_{:%Y%m%d_%H%M%S}", now);
-    kept_.file = folder / (name + ".mcap");
-    for (int n = 2; fs::exists(kept_.file, nobody_asks); ++n)  // started in the same second
-      kept_.file = folder / fmt::format("{}_{}.mcap", name, n);
-    recording_.remember_scan_in(scan_list_by(settings, state));
-    recording_.belongs_to(options.identity);
-    made = recording_.start(session_, kept_.file.string(), ready.volume, ready.import,
-                            session_.hand().spec().name, embed, ready.spared, ready.work_case);
-    recording_now_ = made.ok();
-  }
-  if (made) made = write_account();
-  if (!made) trouble_ = in_options(made.error()).text;
-}
-
-std::optional<FilmSource> Autosave::film_source() const {
-  if (!recording_now_) return std::nullopt;
-  return film_of(session_, kept_.file.string(), kept_.options.volume);
-}
-
-Status Autosave::write_account() const {
-  const json account = {{"title", kept_.title},
-                        {"when", kept_.when},
-                        {"recipe", json::parse(scenario::to_json(kept_.options.volume))},
-                        {"burr_mm", kept_.options.burr_mm},
-                        {"rpm", kept_.options.rpm},
-                        {"seconds", kept_.seconds},
-                        {"seconds_before", kept_.earlier.seconds},
-                        {"removed_before_mm3", 1e9 * kept_.earlier.removed},
-                        {"removed_mm3", kept_.removed_mm3},
-                        {"clean", kept_.clean},
-                        {"keep", kept_.keep},
-                        {"rubric", kept_.rubric},
-                        {"marks", kept_.marks}};
-  return write_text(beside(kept_.file, ".json"),
-                    account.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
-}
-
-Status Autosave::finish() {
-  if (!std::exchange(recording_now_, false))
-    return trouble_.empty() ? fine() : error(Trouble::io, trouble_);
-  Status done = recording_.finish(session_);
-  const sim::Outcome outcome = session_.outcome();
-  kept_.seconds = kept_.earlier.seconds + outcome.seconds;
-  kept_.removed_mm3 =
-      1e9 * (kept_.earlier.removed + outcome.ledger.removed - outcome.ledger.undone);
-  kept_.clean = true;
-  const Status written = write_account();
-  if (done) done = written;
-  if (!done) trouble_ = in_options(done.error()).text;
-  is_kept_ = outcome.ledger.removed > 0 || outcome.ledger.added > 0 || kept_.keep;
-  if (is_kept_) return done;
-  remove_session(kept_.file);  // nothing was done: there is nothing to continue
-  return fine();
-}
-
-bool Autosave::keep() {
-  if (!recording_now_ || !trouble().empty()) return false;
-  kept_.keep = true;
-  return write_account().ok();
-}
-
-std::string Autosave::trouble() const {
-  return trouble_.empty() && recording_now_ ? recording_.trouble() : trouble_;
+  auto ready = make_window_session(options, std::move(work), progress);
+  if (ready) ready->left = std::move(left);
+  return ready;
 }
 
 // ---- scans opened recently
+
+namespace {
+
+scenario::Texts titles_of(const toml::table& one) {
+  scenario::Texts titles;
+  for (const Language& language : languages())
+    if (std::string text = word_of(one, ("title_" + language.code).c_str()); !text.empty())
+      titles.by_language[language.code] = std::move(text);
+  return titles;
+}
+
+std::string titles_text(const scenario::Texts& titles) {
+  std::string text;
+  for (const Language& one : languages())
+    if (const std::string& title = titles.in(one.code); !title.empty())
+      text += fmt::format("title_{} = {}\n", one.code, base::toml_text(title));
+  return text;
+}
+
+}  // namespace
 
 std::vector<Recent> recent(const fs::path& state) {
   std::vector<Recent> all;
@@ -349,22 +393,24 @@ std::vector<Recent> recent(const fs::path& state) {
   for (std::size_t n = 0; list != nullptr && n < list->size() && n < kRecent; ++n)
     if (const toml::table* one = (*list)[n].as_table())
       if (const std::string where = word_of(*one, "path"); fs::exists(where, nobody_asks))
-        all.push_back({where, word_of(*one, "title"), word_of(*one, "when")});
+        all.push_back({where, word_of(*one, "title"), word_of(*one, "when"), titles_of(*one)});
   return all;
 }
 
-void remember(const fs::path& state, const std::string& path, const std::string& title) {
-  if (state.empty() || !make_folder(state)) return;
+void remember(const fs::path& state, const std::string& path, const std::string& title,
+              const scenario::Texts& titles) {
+  if (state.empty() || !make_own_folder(state)) return;
   std::error_code nobody_asks;
   const std::string whole = fs::absolute(path, nobody_asks).string();
   std::vector<Recent> all = recent(state);
   std::erase_if(all, [&](const Recent& one) { return one.path == whole; });
-  all.insert(all.begin(), {whole, title, fmt::format("{:%Y-%m-%d %H:%M}", local_now())});
+  all.insert(all.begin(), {whole, title, time_now(), titles});
   if (all.size() > kRecent) all.resize(kRecent);
   std::string text = "# Scans opened lately in burr's window.\n";
   for (const Recent& one : all)
     text += fmt::format("\n[[scan]]\npath = {}\ntitle = {}\nwhen = {}\n", base::toml_text(one.path),
-                        base::toml_text(one.title), base::toml_text(one.when));
+                        base::toml_text(one.title), base::toml_text(one.when)) +
+            titles_text(one.titles);
   static_cast<void>(write_text(state / "recent.toml", text));  // a missing list does no harm
 }
 

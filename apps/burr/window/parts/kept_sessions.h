@@ -3,37 +3,40 @@
 //
 //     state/sessions/session_20261122_193145.mcap  the recording, docs/use/recording.md
 //     state/sessions/session_20261122_193145.json  its recipe, and whether it ended well
+//     state/sessions/session_20261122_193145.ppm   a small picture of its bone
 //     state/sessions/session_20261122_193145.html  its full report, if the user asked for it
 //     state/recent.toml                            scans opened lately
 //
 // The .json contains the path of the user's own file, because the bone comes from there. It lies in
-// the user's own folder and only the user can read it. Names of scans are shown only if the
+// the user's own folder and only the user can read it. A session that is continued stays one: its
+// recording grows, and so do its time and volume. How a session is kept while it runs: autosave.h. Names of scans are shown only if the
 // settings allow it. Thread: main; continue_session() any. Errors: sentences; an error with kept
 // files never ends a session.
 #pragma once
 
 #include <filesystem>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "burr/base/result.h"
-#include "shared/recorded_session.h"
+#include "burr/scenario/lesson.h"
 #include "shared/user_settings.h"
 #include "shared/window_session.h"
 #include "shared/work.h"
-#include "window/parts/film_job.h"
 
 namespace burr::app {
 
 struct KeptSession {
   std::filesystem::path file;           // the recording
   std::string title;                    // one line that names no patient
-  std::string when;                     // "2026-11-22 19:31"
+  scenario::Texts titles;               // of its case, by language; empty: `title`
+  std::string name;                     // that the user gave it; empty: none
+  std::string when;                     // "2026-11-22 19:31": when it was worked on last
   WorkOptions options;                  // as given at its start; volume.source as the user typed it
   double seconds = 0, removed_mm3 = 0;  // with those of the sessions that it continued
-  Earlier earlier;                      // of these alone
+  Earlier earlier;                      // of those that are recordings of their own
+  bool suction = false;                 // beside the burr, at its end
+  bool has_account = true;              // it can be given a name
   bool clean = false;                   // it ended because the user ended it
   bool keep = false;                    // never deleted automatically
   std::string rubric;                   // of its case, as rubric_of() gives it
@@ -45,49 +48,41 @@ struct KeptSession {
 // left out.
 [[nodiscard]] std::vector<KeptSession> kept_sessions(const std::filesystem::path& state);
 
-// Deletes the oldest sessions until the number and size that the settings allow are kept.
-void throw_old_away(const std::filesystem::path& state, const Settings& settings);
+// What the list shows: the name that the user gave it, or the title in the user's language.
+[[nodiscard]] std::string shown_title(const KeptSession& kept);
+// A line of at most kLongestName letters; empty: the title is shown again.
+inline constexpr std::size_t kLongestName = 60;
+[[nodiscard]] Status name_session(KeptSession& kept, const std::string& name);
+// Its small picture; the file may not be there.
+[[nodiscard]] std::filesystem::path picture_of(const std::filesystem::path& recording);
 
-// The bone as that session left it, ready to be milled further. It comes from the formula, the
-// user's scan, or the recording itself.
+// Deletes the oldest sessions until the number and size that the settings allow are kept; never
+// `needed`, a recording.
+void throw_old_away(const std::filesystem::path& state, const Settings& settings,
+                    const std::filesystem::path& needed = {});
+// Deletes one with all that belongs to it.
+void remove_session(const std::filesystem::path& recording);
+
+// What the list knows of a session, beside its recording.
+[[nodiscard]] Status write_account(const KeptSession& kept);
+// "2026-11-22 19:31", and the same for a name of a file: "session_20261122_193145".
+[[nodiscard]] std::string time_now();
+[[nodiscard]] std::string name_now();
+// Creates a folder that only its owner can read.
+[[nodiscard]] Status make_own_folder(const std::filesystem::path& folder);
+
+// The bone as that session left it, ready to be milled further, with all that the session was: mode,
+// learner, steps, water, suction, tool and declaration. The bone comes from the formula, the user's
+// scan, or the recording itself. Where the recording cannot go on, `left.part` is nullptr.
 [[nodiscard]] Result<WindowSession> continue_session(const KeptSession& kept, Progress& progress);
-
-// Records the running session so that it is kept.
-class Autosave {
- public:
-  // options: as the user gave them. embed: the bone is stored in the recording, because no file or
-  // formula gives it. After an error the session goes on; trouble() returns the error.
-  Autosave(const std::filesystem::path& state, WindowSession& ready, const WorkOptions& options,
-           bool embed, const Settings& settings);
-  // Call it after the servo has stopped. Error: what was done is not kept, or not all of it.
-  [[nodiscard]] Status finish();
-  // Of the recording that is kept; empty: there is none.
-  [[nodiscard]] std::string kept_file() const {
-    return trouble_.empty() && is_kept_ ? kept_.file.string() : std::string();
-  }
-  // The source for a film of the session so far; none: it could not be recorded.
-  [[nodiscard]] std::optional<FilmSource> film_source() const;
-  // Of the recording; nullptr: there is none.
-  [[nodiscard]] record::Diary* diary() { return recording_now_ ? recording_.diary() : nullptr; }
-  [[nodiscard]] bool keep();  // marks it as never to be deleted; false: there is nothing to keep
-  [[nodiscard]] std::string trouble() const;
-  [[nodiscard]] const std::filesystem::path& file() const { return kept_.file; }
-
- private:
-  Status write_account() const;
-  sim::Session& session_;
-  KeptSession kept_;
-  Recording recording_;
-  bool recording_now_ = false, is_kept_ = false;
-  std::string trouble_;
-};
 
 // Scans, case files and recordings that were opened recently, newest first.
 struct Recent {
   std::string path, title, when;
+  scenario::Texts titles = {};  // of a case, by language; empty: `title`
 };
 [[nodiscard]] std::vector<Recent> recent(const std::filesystem::path& state);
-void remember(const std::filesystem::path& state, const std::string& path,
-              const std::string& title);
+void remember(const std::filesystem::path& state, const std::string& path, const std::string& title,
+              const scenario::Texts& titles = {});
 
 }  // namespace burr::app

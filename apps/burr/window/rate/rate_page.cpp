@@ -260,6 +260,7 @@ class Rate {
     }
     if (pressed.sym >= SDLK_0 && pressed.sym <= SDLK_9)
       return see(static_cast<std::size_t>((pressed.sym - SDLK_0 + 9) % 10));
+    if ((pressed.mod & KMOD_CTRL) != 0) return;  // Ctrl + A is no A
     switch (pressed.sym) {
       case SDLK_UP:
         return step_item(-1);

@@ -8,9 +8,11 @@
 #include <system_error>
 #include <utility>
 
+#include "burr/base/one_bar.h"
 #include "burr/render/camera.h"
 #include "burr/render/soft_scene.h"
 #include "burr/workshop/live_surface.h"
+#include "burr/workshop/open_bone.h"
 #include "burr/workshop/piece_look.h"
 #include "burr/workshop/recorded_bone.h"
 #include "burr/workshop/recording.h"
@@ -30,7 +32,7 @@ bool is_recording(const std::string& path) {
 }
 
 Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
-                               const scenario::BoneRecipe& given, Progress& progress) {
+                               const scenario::BoneRecipe& given, Progress& whole) {
   auto player = record::Player::open(file);
   if (!player) return player.error();
   Recorded out;
@@ -42,12 +44,17 @@ Result<Recorded> open_recorded(const std::string& file, const fs::path& state,
   std::error_code nobody_asks;
   for (const KeptSession& kept : kept_sessions(state)) {
     if (!fs::equivalent(kept.file, file, nobody_asks)) continue;
-    out.title = kept.title;
+    out.title = shown_title(kept);
     if (given.source.empty() && !out.player->info().embedded &&
         fs::exists(kept.options.volume.source, nobody_asks) &&
         fs::path(kept.options.volume.source).extension() != ".toml")
       volume = kept.options.volume;
   }
+  std::vector<base::OneBar::Step> steps =
+      workshop::steps_to_bone(volume.source.empty() ? out.player->info().volume.recipe : volume);
+  steps.push_back({{"reading what happened"}, 0.2});
+  steps.push_back({{"making the surface"}, 0.2});
+  base::OneBar progress(whole, std::move(steps));
   out.film.recording = file;
   out.film.volume = volume;
   out.film.plan.until = out.player->seconds();

@@ -87,6 +87,7 @@ void Watch::take_events() {
 
 void Watch::key(const SDL_Keysym& pressed) {
   const bool shift_held = (pressed.mod & KMOD_SHIFT) != 0, ctrl = (pressed.mod & KMOD_CTRL) != 0;
+  if (ctrl && pressed.sym >= SDLK_a && pressed.sym <= SDLK_z) return;  // Ctrl + A is no A
   switch (pressed.sym) {
     case SDLK_ESCAPE:
       if (page_open()) {

@@ -8,8 +8,10 @@
 #include <system_error>
 #include <utility>
 
+#include "burr/base/one_bar.h"
 #include "burr/render/picture.h"
 #include "burr/tick/second_hand.h"
+#include "burr/workshop/open_bone.h"
 #include "shared/interrupt.h"
 #include "shared/word_names.h"
 #include "shared/work.h"
@@ -17,6 +19,7 @@
 #include "window/import/notice_words.h"
 #include "window/mill/mill_keys.h"
 #include "window/mill/window.h"
+#include "window/parts/autosave.h"
 #include "window/parts/kept_sessions.h"
 #include "window/rate/rate_page.h"
 #include "window/replay/playback.h"
@@ -49,13 +52,14 @@ Status leave_screenshot(Desk& desk, const std::string& file) {
 
 std::string title_of(const WindowSession& ready) {
   const std::string title = ready.lesson ? ready.lesson->title.in(spoken().code) : std::string();
-  return title.empty() ? ready.title : title;
+  return title.empty() ? name_of_work(ready.title) : title;
 }
 
-Result<WindowSession> open_ready(WorkOptions options, Progress& progress) {
+Result<WindowSession> open_ready(WorkOptions options, Progress& whole) {
   const Status taken = take_case(options);
   if (!taken) return taken.error();
   options.keep_greys = true;
+  base::OneBar progress(whole, workshop::steps_to_picture(options.volume));
   auto work = open_work(options, progress);
   if (!work) return work.error();
   return make_window_session(options, std::move(*work), progress);
@@ -66,6 +70,7 @@ Result<Closed> mill_with_sound(Desk& desk, WindowSession& ready, const WindowOpt
   with.spared_distance = ready.spared_distance.get();
   with.title = title_of(ready);
   with.earlier = ready.earlier;
+  with.left = ready.left;
   with.greys = ready.greys;
   with.rack = ready.rack;
   with.work_case = ready.work_case;
@@ -89,44 +94,76 @@ Result<Closed> mill_with_sound(Desk& desk, WindowSession& ready, const WindowOpt
   return left;
 }
 
-Result<Closed> mill_and_keep(Desk& desk, WindowSession& ready, const WorkOptions& options,
-                             bool embed, const WindowOptions& window) {
-  std::unique_ptr<Autosave> autosave;
-  if (desk.settings.autosave && !desk.places().state.empty()) {
-    throw_old_away(desk.places().state, desk.settings);
-    autosave =
-        std::make_unique<Autosave>(desk.places().state, ready, options, embed, desk.settings);
-  }
-  // a session that goes on with an older one is the second part only
-  const bool enters = autosave && autosave->diary() != nullptr && !embed;
-  const std::string file = enters ? autosave->file().string() : std::string();
-  const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
-  if (enters) session_begins(desk, file, options.identity, work);
+namespace {
+
+// The bone as it is now, for the list of sessions.
+void keep_picture(Desk& desk, const WindowSession& ready, Autosave& autosave) {
+  constexpr int kWide = 160, kHigh = 90;  // [pixel]
+  render::Scene scene = ready.scene;
+  scene.burr.visible = false;
+  scene.insets.clear();
+  if (const auto small = desk.renderer().image(scene, kWide, kHigh)) autosave.take_picture(*small);
+}
+
+// What the page for milling gets of the recording.
+WindowOptions with_recording(Desk& desk, const WindowOptions& window, const WindowSession& ready,
+                             Autosave* autosave) {
   WindowOptions with = window;
-  with.diary = autosave ? autosave->diary() : nullptr;
-  with.done_ends = !embed && ready.work_case && has_marks(*ready.work_case);
-  with.keep = [&autosave] { return autosave != nullptr && autosave->keep(); };
-  with.film_of = [&]() -> std::optional<FilmSource> {
-    std::optional<FilmSource> source = autosave ? autosave->film_source() : std::nullopt;
-    if (source && embed) source->volume.source.clear();  // the bone is in the recording
+  with.diary = autosave != nullptr ? autosave->diary() : nullptr;
+  with.done_ends = (autosave == nullptr || !autosave->is_part()) && ready.work_case &&
+                   has_marks(*ready.work_case);
+  with.keep = [autosave] { return autosave != nullptr && autosave->keep(); };
+  with.left_as = [autosave] {
+    return autosave != nullptr && autosave->diary() != nullptr && autosave->trouble().empty()
+               ? Word::leave_told_kept
+               : Word::leave_told_lost;
+  };
+  with.suction_left = [autosave](bool on) {
+    if (autosave != nullptr) autosave->suction_is(on);
+  };
+  with.film_of = [autosave, &desk]() -> std::optional<FilmSource> {
+    std::optional<FilmSource> source = autosave != nullptr ? autosave->film_source() : std::nullopt;
     if (source) source->effects = desk.settings.effects;
     return source;
   };
-  with.warning = [&] {
-    std::string warning = window.warning ? window.warning() : std::string();
-    if (warning.empty() && autosave) warning = autosave->trouble();
+  with.warning = [autosave, told = window.warning] {
+    std::string warning = told ? told() : std::string();
+    if (warning.empty() && autosave != nullptr) warning = autosave->trouble();
     return warning;
   };
+  return with;
+}
+
+}  // namespace
+
+Result<Closed> mill_and_keep(Desk& desk, WindowSession& ready, const WorkOptions& options,
+                             const KeptSession* goes_on, const WindowOptions& window) {
+  std::unique_ptr<Autosave> autosave;
+  if (desk.settings.autosave && !desk.places().state.empty()) {
+    throw_old_away(desk.places().state, desk.settings,
+                   goes_on != nullptr ? goes_on->file : std::filesystem::path());
+    autosave =
+        std::make_unique<Autosave>(desk.places().state, ready, options, desk.settings, goes_on);
+    if (!autosave->apart().empty()) desk.troubles.push_back(autosave->apart());
+  }
+  // a recording with a part of the session has no marks
+  const bool enters = autosave && autosave->diary() != nullptr && !autosave->is_part();
+  const std::string file = enters ? autosave->file().string() : std::string();
+  const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
+  if (enters) session_begins(desk, file, ready.identity, work);
+  const WindowOptions with = with_recording(desk, window, ready, autosave.get());
   Result<Closed> left = mill_with_sound(desk, ready, with);
   const bool done = left && *left == Closed::done;
   Result<bool> stays = true;
   if (done) stays = ask_own_marks(desk, ready, *with.diary, window);
-  if (autosave)
+  if (autosave) {
+    keep_picture(desk, ready, *autosave);
     if (const Status kept = autosave->finish(); !kept) desk.lost = kept;
+  }
   // one that ended early, on a full disk, counts with what it holds
   std::error_code nobody_asks;
   if (enters)
-    session_ended(desk, file, options.identity, work, std::filesystem::exists(file, nobody_asks));
+    session_ended(desk, file, ready.identity, work, std::filesystem::exists(file, nobody_asks));
   if (!done) return left;
   if (!stays) return stays.error();
   if (!*stays) return Closed::window;
@@ -167,7 +204,7 @@ Result<Closed> watch_file(Desk& desk, const std::string& file, const scenario::B
   std::error_code nobody_asks;
   if (!std::filesystem::equivalent(std::filesystem::absolute(file, nobody_asks).parent_path(),
                                    sessions, nobody_asks))
-    remember(desk.places().state, file, word(Word::start_recording));
+    remember(desk.places().state, file, "recording");
   WatchOptions with = options;
   with.open = open;
   return watch(desk, *recorded, with);
@@ -182,7 +219,7 @@ Result<Closed> work_on(Desk& desk, StartPage::Choice& choice, const PagesOptions
   const bool goes_on = choice.go_on.has_value();
   WorkOptions& chosen = *choice.open;
   const std::string title =
-      say(Word::loading, goes_on ? choice.go_on->title : title_of(chosen, desk.settings));
+      say(Word::loading, goes_on ? shown_title(*choice.go_on) : title_of(chosen, desk.settings));
   bool closed = false;
   Result<WindowSession> ready =
       goes_on ? load<WindowSession>(
@@ -206,10 +243,12 @@ Result<Closed> work_on(Desk& desk, StartPage::Choice& choice, const PagesOptions
   }
   std::error_code nobody_asks;
   if (!goes_on && std::filesystem::exists(chosen.volume.source, nobody_asks))
-    remember(desk.places().state, chosen.volume.source, ready->title);
+    remember(desk.places().state, chosen.volume.source, ready->title,
+             ready->lesson ? ready->lesson->title : scenario::Texts());
   for (const std::string& notice : ready->import.notices)
     desk.troubles.push_back(notice_words(notice));
-  return mill_and_keep(desk, *ready, chosen, goes_on,
+  chosen.identity = ready->identity;
+  return mill_and_keep(desk, *ready, chosen, goes_on ? &*choice.go_on : nullptr,
                        {.seconds = options.seconds,
                         .folder = options.folder,
                         .screenshot = options.screenshot,
@@ -221,7 +260,7 @@ Result<Closed> look_at(Desk& desk, const StartPage::Choice& choice, const PagesO
                        std::string& trouble) {
   const Result<Closed> left = choice.marks_of
                                   ? review_session(desk, {.file = choice.marks_of->file.string(),
-                                                          .title = choice.marks_of->title,
+                                                          .title = shown_title(*choice.marks_of),
                                                           .rubric = choice.marks_of->rubric,
                                                           .volume = choice.marks_of->options.volume,
                                                           .seconds = options.seconds,
@@ -239,7 +278,10 @@ Result<Closed> look_at(Desk& desk, const StartPage::Choice& choice, const PagesO
 }  // namespace
 
 Status run_pages(Desk& desk, const PagesOptions& options) {
-  StartPage start(desk, mill_help_rows, options.led.hand, options.led.identity);
+  record::Identity who = options.led.identity;
+  if (!options.mode_given)
+    who.mode = record::mode_of(desk.settings.mode).value_or(record::Mode::free);
+  StartPage start(desk, mill_help_rows, options.led.hand, who);
   std::string trouble, last_loss;  // last_loss: of a session that was not kept
   RateState rating;                // of whoever marks products, while burr runs
   for (;;) {
@@ -266,6 +308,7 @@ Status run_pages(Desk& desk, const PagesOptions& options) {
       do {
         left = work_on(desk, *choice, options, trouble);
         next_attempt(choice->open->identity);
+        choice->go_on.reset();  // once more: from the beginning
       } while (left && *left == Closed::again);
     }
     if (!left) return left.error();

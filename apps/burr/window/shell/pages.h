@@ -14,6 +14,8 @@
 
 namespace burr::app {
 
+struct KeptSession;
+
 struct PagesOptions {
   double seconds = 0;           // closes after this time on one page; 0: never
   std::string folder = {};      // where the key P saves pictures
@@ -22,6 +24,7 @@ struct PagesOptions {
   // only hand, suction, publish_as and identity of it are used; without a hand, that of the settings is
   // taken
   WorkOptions led = {};
+  bool mode_given = false;  // that of `led` counts; otherwise the one chosen last
 };
 
 // Runs until the user leaves. An error with one bone is shown on the start page, and burr goes on.
@@ -45,10 +48,10 @@ struct PagesOptions {
 
 // Runs one session and keeps its recording if the settings say so. If the user declares the work on a
 // case done, the learner's own marks and those of the machine follow; the result is then
-// Closed::page, Closed::again or Closed::window. embed: the session goes on with an older one; its
-// recording holds the second part only, so there are no marks.
+// Closed::page, Closed::again or Closed::window. goes_on: the session that this one continues, in the
+// same recording; nullptr: it is a new one.
 [[nodiscard]] Result<Closed> mill_and_keep(Desk& desk, WindowSession& ready,
-                                           const WorkOptions& options, bool embed,
+                                           const WorkOptions& options, const KeptSession* goes_on,
                                            const WindowOptions& window);
 
 // The number of the learner's next attempt, where attempts are counted.

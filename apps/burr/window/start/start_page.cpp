@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using Letter = Ui::Letter;
 
-constexpr std::size_t kSessionsShown = 5, kRecentsShown = 3;
+constexpr std::size_t kRecentsShown = 3;
 
 // the cases, easiest first
 std::vector<std::string> cases() {
@@ -49,6 +49,7 @@ StartPage::StartPage(Desk& desk, HelpRows help_rows, const workshop::HandRequest
       help_rows_(std::move(help_rows)),
       thumbnails_(desk.places().cache, cases()),
       renewed_(desk.renewed()),
+      sessions_(desk),
       hand_([&] {
         workshop::HandRequest request = hand;
         if (request.device.empty()) request.device = desk.settings.device;
@@ -62,7 +63,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
   for (const std::string& one : std::exchange(desk_.troubles, {}))
     desk_.message += (desk_.message.empty() ? "" : "\n") + in_options(one);
   choice_.reset();
-  kept_ = kept_sessions(desk_.places().state);
+  sessions_.read();
   recent_ = recent(desk_.places().state);
   rates_ = can_rate(desk_);
   help_ = settings_ = false;
@@ -78,7 +79,10 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
     const Status shown = desk_.show(
         empty, [this] { draw(); }, !dialog_.open());  // it has keys of its own
     if (!shown) return shown.error();
-    if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed()) thumbnails_.forget();
+    if (std::exchange(renewed_, desk_.renewed()) != desk_.renewed()) {
+      thumbnails_.forget();
+      sessions_.forget();
+    }
     if (const auto chosen = dialog_.answer(); chosen && !chosen->empty()) open(*chosen);
     const bool over = seconds > 0 && Clock::now() - start >= std::chrono::duration<double>(seconds);
     if (interrupted() || over)
@@ -90,6 +94,7 @@ Result<StartPage::Choice> StartPage::ask(const std::string& trouble, double seco
           static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
   }
   SDL_StopTextInput();
+  sessions_.rest();
   hand_.rest();
   return *choice_;
 }
@@ -109,9 +114,10 @@ void StartPage::take_events() {
         break;
       case SDL_KEYDOWN: {
         const SDL_Keycode key = event.key.keysym.sym;
+        if (desk_.ui().typing()) break;
         if (key == SDLK_F1 && !dialog_.open()) help_ = !help_;
         if (key == SDLK_F2 && !dialog_.open()) settings_ = !settings_;
-        if (key != SDLK_ESCAPE || desk_.ui().typing()) break;
+        if (key != SDLK_ESCAPE) break;
         if (dialog_.open())
           dialog_.cancel();
         else if (help_ || settings_)
@@ -177,7 +183,13 @@ void StartPage::draw() {
   const float right = x + 788 * u, w = 392 * u;
   own_scan(right, top + 96 * u, w);
   float y = top + 314 * u;
-  sessions(right, y, w);
+  SessionList::Pressed pressed = sessions_.draw(right, y, w);
+  if (pressed.go_on || pressed.marks_of)
+    choice_ = Choice{.open = {},
+                     .go_on = std::move(pressed.go_on),
+                     .marks_of = std::move(pressed.marks_of),
+                     .quit = false};
+  if (pressed.play) play(*pressed.play);
   y += 12 * u;
   recents(right, y, w);
   if (hand_.draw(ui, right, top + 632 * u, w)) {
@@ -242,11 +254,18 @@ void StartPage::modes(float x, float y) {
                          One{record::Mode::practise, Word::mode_practise, Word::mode_told_practise},
                          One{record::Mode::exam, Word::mode_exam, Word::mode_told_exam}}) {
     ImGui::SetCursorScreenPos({at, y});
-    if (ImGui::RadioButton(word(one.name), identity_.mode == one.mode)) identity_.mode = one.mode;
+    if (ImGui::RadioButton(word(one.name), identity_.mode == one.mode)) choose(one.mode);
     at += ImGui::GetItemRectSize().x + 14 * u;
     if (identity_.mode == one.mode)
       ui.write(x + 90 * u, y - 16 * u, Letter::small, ink::kDim, word(one.help));
   }
+}
+
+// Also for the next start of burr.
+void StartPage::choose(record::Mode mode) {
+  identity_.mode = mode;
+  desk_.settings.mode = record::word_of(mode);
+  desk_.settings_changed();
 }
 
 void StartPage::other_bone(float x, float y, float w) {
@@ -317,61 +336,10 @@ bool StartPage::row(const char* id, float x, float& y, float w, const std::strin
   return pressed;
 }
 
-namespace {
-
-// A button with a triangle, as that of the page that plays a recording.
-bool play_button(float u, std::size_t number, ImVec2 p, ImVec2 size) {
-  ImGui::SetCursorScreenPos(p);
-  const bool pressed = ImGui::Button(fmt::format("##play{}", number).c_str(), size);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(Word::start_play_told));
-  const ImVec2 c = {p.x + size.x / 2, p.y + size.y / 2};
-  ImGui::GetWindowDrawList()->AddTriangleFilled(
-      {c.x - 4 * u, c.y - 6 * u}, {c.x - 4 * u, c.y + 6 * u}, {c.x + 7 * u, c.y}, ink::kText);
-  return pressed;
-}
-
-}  // namespace
-
 void StartPage::play(const KeptSession& kept) {
   WorkOptions options;
   options.volume.source = kept.file.string();
   choice_ = Choice{.open = std::move(options), .go_on = {}, .marks_of = {}, .quit = false};
-}
-
-void StartPage::sessions(float x, float& y, float w) {
-  Ui& ui = desk_.ui();
-  const float u = ui.unit();
-  ui.write(x, y, Letter::strong, ink::kAccent, word(Word::start_sessions));
-  y += 26 * u;
-  if (kept_.empty()) {
-    ui.write(x, y, Letter::body, ink::kDim, word(Word::start_none));
-    y += 26 * u;
-  }
-  for (std::size_t n = 0; n < std::min(kept_.size(), kSessionsShown); ++n) {
-    const KeptSession& kept = kept_[n];
-    // of a built-in case the name on its card; what has no room beside it is in the tip
-    const std::vector<std::string> names = cases();
-    const std::string& source = kept.options.volume.source;
-    const bool built_in = std::find(names.begin(), names.end(), source) != names.end();
-    const std::string title = built_in ? name_of_case(source) : kept.title;
-    std::string tip = title + "\n";
-    if (!kept.clean) tip += fmt::format("{} - ", word(Word::start_unclean));
-    if (kept.keep) tip += fmt::format("{} - ", word(Word::start_kept));
-    tip += fmt::format("{} - {:.0f} mm³ - {}", minutes(kept.seconds), kept.removed_mm3, kept.when);
-    // the marks of a session on a case, also of one that did not come to its end
-    const float playing = 38 * u, beside = playing + (kept.marks ? 84 * u : 0), top = y;
-    if (row(fmt::format("##kept{}", n).c_str(), x, y, w - beside, title, kept.when, !kept.clean))
-      choice_ = Choice{.open = {}, .go_on = kept, .marks_of = {}, .quit = false};
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s\n%s", word(Word::start_go_on_told), tip.c_str());
-    if (play_button(u, n, {x + w - beside + 4 * u, top}, {playing - 4 * u, 28 * u})) play(kept);
-    if (!kept.marks) continue;
-    ImGui::SetCursorScreenPos({x + w - beside + playing + 4 * u, top});
-    if (ImGui::Button(fmt::format("{}##marks{}", word(Word::start_marks), n).c_str(),
-                      {beside - playing - 4 * u, 28 * u}))
-      choice_ = Choice{.open = {}, .go_on = {}, .marks_of = kept, .quit = false};
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(Word::start_marks_told));
-  }
 }
 
 void StartPage::recents(float x, float& y, float w) {
@@ -383,8 +351,9 @@ void StartPage::recents(float x, float& y, float w) {
   for (std::size_t n = 0; n < std::min(recent_.size(), kRecentsShown); ++n) {
     const Recent& one = recent_[n];
     // the name of a file may contain the name of a patient
-    const std::string name =
-        desk_.settings.recent_names ? fs::path(one.path).filename().string() : one.title;
+    const std::string name = desk_.settings.recent_names ? fs::path(one.path).filename().string()
+                             : one.titles.empty()        ? name_of_work(one.title)
+                                                         : one.titles.in(spoken().code);
     if (row(fmt::format("##recent{}", n).c_str(), x, y, w, name, one.when, false)) open(one.path);
   }
 }

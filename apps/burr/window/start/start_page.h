@@ -14,6 +14,7 @@
 #include "shared/work.h"
 #include "window/parts/kept_sessions.h"
 #include "window/start/hand_choice.h"
+#include "window/start/session_list.h"
 #include "window/start/thumbnails.h"
 #include "window/ui/desk.h"
 #include "window/ui/file_dialog.h"
@@ -50,9 +51,9 @@ class StartPage {
   void draw();
   void cards(float x, float y);
   void own_scan(float x, float y, float w);
-  void sessions(float x, float& y, float w);
   void recents(float x, float& y, float w);
   void modes(float x, float y);
+  void choose(record::Mode mode);
   void other_bone(float x, float y, float w);
   void draw_message(float x, float y, float w);
   void draw_news(float x, float y, float w);
@@ -66,10 +67,10 @@ class StartPage {
   Thumbnails thumbnails_;
   int renewed_ = 0;  // desk_.renewed() when thumbnails_ was last made
   FileDialog dialog_;
+  SessionList sessions_;
   HandChoice hand_;
   record::Identity identity_;
   bool other_bone_ = false;  // each session of a case is on another bone
-  std::vector<KeptSession> kept_;
   std::vector<Recent> recent_;
   std::vector<std::string> dropped_;
   std::string typed_;

@@ -22,7 +22,7 @@ Result<std::unique_ptr<Desk>> Desk::open(const DeskPlaces& places) {
     desk->keep_old_ = !read.troubles.empty();
     desk->troubles = std::move(read.troubles);
   }
-  speak(desk->settings.language);
+  speak(language_of(desk->settings));
   desk->headset_wanted = desk->settings.headset;
   desk->asked_quads_ = desk->settings.stereo == render::Stereo::quad_buffer;
   auto renderer = render::Renderer::window("burr", 1280, 720, desk->asked_quads_);
@@ -38,7 +38,7 @@ Result<std::unique_ptr<Desk>> Desk::open(const DeskPlaces& places) {
 }
 
 void Desk::settings_changed() {
-  speak(settings.language);
+  speak(language_of(settings));
   if (places_.config.empty()) return;
   const Status kept = write_settings(settings, places_.config / "settings.toml", keep_old_);
   if (kept)
@@ -50,7 +50,8 @@ void Desk::settings_changed() {
 bool Desk::next(SDL_Event& event) {
   do {
     if (!pointer_.next(event)) return false;
-    const bool stereo_key = event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_F3;
+    const bool stereo_key =
+        event.type == SDL_KEYDOWN && event.key.keysym.sym == SDLK_F3 && !ui_->typing();
     if (!stereo_key) break;
     next_stereo();
   } while (true);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "burr/base/one_bar.h"
 #include "shared/interrupt.h"
 #include "shared/word_names.h"
 
@@ -24,16 +25,28 @@ SharedProgress::Now SharedProgress::now() const {
 }
 
 std::string stage_words(const std::string& stage) {
+  if (const auto numbered = base::numbered_stage(stage))
+    return say(Word::stage_of, numbered->number, numbered->of,
+               stage_words(std::string(numbered->words)));
   constexpr std::pair<std::string_view, Word> kKnown[] = {
       {"reading", Word::stage_reading},
       {"counting values", Word::stage_counting},
       {"straightening the slices", Word::stage_straightening},
+      {"smoothing", Word::stage_smoothing},
+      {"making voxels cubic", Word::stage_cubic},
+      {"looking for bone", Word::stage_bone},
       {"looking for separate parts", Word::stage_parts},
       {"shaping bone", Word::stage_shaping},
       {"filling bone", Word::stage_filling},
       {"finding the surface", Word::stage_finding},
       {"making the surface", Word::stage_making},
       {"measuring the distance to structures to spare", Word::nearest_far},
+      {"reading what happened", Word::stage_taking},
+      {"comparing before and after", Word::stage_comparing},
+      {"writing the mesh", Word::stage_writing},
+      {"writing the volume", Word::stage_writing},
+      {"writing DICOM", Word::stage_writing},
+      {"measuring", Word::stage_measuring},
       {"copying the bone", Word::stage_copying}};
   for (const auto& [known, says] : kKnown)
     if (stage == known) return word(says);

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <string_view>
 
 #include "shared/word_names.h"
 
 namespace burr::app {
 namespace {
+
+constexpr float kNumber = 76;  // room for a slider's number [point]
 
 // One setting per line: its name on the left, its control on the right.
 class Lines {
@@ -39,15 +43,24 @@ class Lines {
     float* const kept =
         ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(key), static_cast<float>(value));
     if (later && ImGui::IsMouseDown(0)) now = *kept;
-    ImGui::SetNextItemWidth(200 * u_);
-    if (ImGui::SliderFloat(fmt::format("##{}", key).c_str(), &now, static_cast<float>(range.least),
+    const bool types = ImGui::GetIO().WantTextInput;  // Ctrl + click: the number as text
+    ImGui::SetNextItemWidth((200 - kNumber) * u_);
+    // the number stands beside the slider: in it, the knob would cover it
+    if (!types) ImGui::PushStyleColor(ImGuiCol_Text, ink::rgb(0, 0, 0, 0));
+    const bool moved =
+        ImGui::SliderFloat(fmt::format("##{}", key).c_str(), &now, static_cast<float>(range.least),
                            static_cast<float>(range.most), format,
                            range.least > 0 && range.most / range.least > 50
                                ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp
-                               : ImGuiSliderFlags_AlwaysClamp)) {
+                               : ImGuiSliderFlags_AlwaysClamp);
+    if (!types) ImGui::PopStyleColor();
+    if (moved) {
       *kept = now;
       if (!later) value = static_cast<double>(now);
     }
+    std::array<char, 32> text = {};
+    std::snprintf(text.data(), text.size(), format, static_cast<double>(now));
+    ui_.write(x_ + 390 * u_, y_ + 5 * u_, Ui::Letter::body, ink::kText, text.data(), 1);
     if (later && ImGui::IsItemDeactivatedAfterEdit()) value = static_cast<double>(*kept);
     if (!ImGui::IsItemActive()) *kept = static_cast<float>(value);
     // written to the file when the slider is released
@@ -66,7 +79,7 @@ class Lines {
     ImGui::SetNextItemWidth(200 * u_);
     if (ImGui::BeginCombo("##language", spoken().name.c_str())) {
       for (const Language& one : languages())
-        if (ImGui::Selectable(one.name.c_str(), one.code == value) && one.code != value) {
+        if (ImGui::Selectable(one.name.c_str(), one.code == spoken().code) && one.code != value) {
           value = one.code;
           changed_ = true;
         }

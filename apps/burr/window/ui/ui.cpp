@@ -42,6 +42,7 @@ std::unique_ptr<Ui> Ui::make() {
   io.IniFilename = nullptr;  // positions of panels are fixed, not saved
   io.LogFilename = nullptr;
   io.BackendPlatformName = "burr";
+  io.UserData = ui.get();  // for text_field()
   ImGui_ImplOpenGL3_Init(epoxy_is_desktop_gl() ? "#version 330 core" : "#version 300 es");
   return ui;
 }
@@ -162,7 +163,7 @@ void Ui::begin(int window_width, int window_height, int width, int height, doubl
                                          static_cast<double>(SDL_GetPerformanceFrequency());
   io.DeltaTime = static_cast<float>(std::clamp(passed, 1e-4, 0.25));
   last_ = now;
-  boxes_.clear();
+  forget_panels();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
 }
@@ -196,13 +197,34 @@ void Ui::own_pointer(bool on) {
 float Ui::width() const { return ImGui::GetIO().DisplaySize.x; }
 float Ui::height() const { return ImGui::GetIO().DisplaySize.y; }
 // WantTextInput is that of the last picture: a field that has been left since is not active any
-// more
-bool Ui::typing() const { return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive(); }
-bool Ui::over_panel(float window_x, float window_y) const {
-  const float x = window_x * from_window_, y = window_y * from_window_;
-  return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
+// more, and one that became active in that picture is not in it yet. A click that no picture has seen
+// decides for the keys behind it.
+bool Ui::typing() const {
+  bool types = field_has_keys_ || (ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive());
+  for (const MouseStep& step : mouse_)
+    if (step.button == 0 && step.down)
+      types = holds(fields_, step.x * from_window_, step.y * from_window_);
+  return types;
+}
+void Ui::field() {
+  const ImVec2 least = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
+  fields_.push_back({least.x, least.y, size.x, size.y});
+  field_has_keys_ = field_has_keys_ || ImGui::IsItemActive();
+}
+bool Ui::first_field(float& window_x, float& window_y) const {
+  if (fields_.empty()) return false;
+  const Box& box = fields_.front();
+  window_x = (box.x + box.w / 2) / from_window_;
+  window_y = (box.y + box.h / 2) / from_window_;
+  return true;
+}
+bool Ui::holds(const std::vector<Box>& boxes, float x, float y) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) {
     return x >= box.x && x < box.x + box.w && y >= box.y && y < box.y + box.h;
   });
+}
+bool Ui::over_panel(float window_x, float window_y) const {
+  return holds(boxes_, window_x * from_window_, window_y * from_window_);
 }
 
 // ---- fonts and style
@@ -319,6 +341,7 @@ void Ui::page(const char* name, float x, float y, float w, float h) {
 
 void Ui::write(float x, float y, Letter letter, ImU32 ink, const std::string& text,
                float aligned) const {
+  tell(text);
   ImFont* which = font(letter);
   if (aligned != 0) x -= aligned * width_of(letter, text);
   ImGui::GetWindowDrawList()->AddText(which, which->FontSize, {std::round(x), std::round(y)}, ink,
@@ -349,6 +372,7 @@ bool text_field(const char* id, const char* hint, std::string& text, float width
       ImGuiInputTextFlags_EnterReturnsTrue |
           (complete != nullptr ? ImGuiInputTextFlags_CallbackCompletion : 0),
       complete != nullptr ? completing : nullptr, static_cast<void*>(&complete));
+  static_cast<Ui*>(ImGui::GetIO().UserData)->field();
   text = buffer.data();
   return entered;
 }

@@ -57,13 +57,20 @@ class Ui {
   [[nodiscard]] float unit() const { return unit_; }
   [[nodiscard]] float width() const;
   [[nodiscard]] float height() const;
-  // The user types into a field: keys are letters, not commands.
+  // The user types into a field, or has just clicked into one: keys are letters, not commands.
   [[nodiscard]] bool typing() const;
   // The mouse is over a panel of the last picture. forget_panels(): that picture had none.
   [[nodiscard]] bool over_panel() const { return over_panel(mouse_x_, mouse_y_); }
   // the same for any position  [window coordinates]
   [[nodiscard]] bool over_panel(float window_x, float window_y) const;
-  void forget_panels() { boxes_.clear(); }
+  void forget_panels() {
+    boxes_.clear();
+    fields_.clear();
+    field_has_keys_ = false;
+  }
+
+  // A field for text, as it was drawn now: the item before this call. For text_field().
+  void field();
 
   // ---- parts of panels
   // Begins a panel at a fixed place; end it with ImGui::End().
@@ -79,6 +86,15 @@ class Ui {
   [[nodiscard]] float width_of(Letter letter, const std::string& text) const;
   [[nodiscard]] float height_of(Letter letter) const;
 
+  // For tests and watchers: the lines that write() draws from now on; nullptr: nobody listens.
+  void listen(std::vector<std::string>* to) { heard_ = to; }
+  // For whoever draws text in another way than by write().
+  void tell(const std::string& text) const {
+    if (heard_ != nullptr) heard_->push_back(text);
+  }
+  // The middle of the first field for text of the last picture [window coordinates]; false: none.
+  [[nodiscard]] bool first_field(float& window_x, float& window_y) const;
+
   // name of the font: "DejaVu Sans"; "" for ImGui's own
   [[nodiscard]] const std::string& letters() const { return letters_; }
 
@@ -93,6 +109,7 @@ class Ui {
   ImGuiContext* context_ = nullptr;
   ImFont* fonts_[5] = {};
   std::string letters_;
+  std::vector<std::string>* heard_ = nullptr;
   float unit_ = 0;
   float from_window_ = 1;  // pixels per unit of the window
   float mouse_x_ = -1, mouse_y_ = -1;
@@ -106,7 +123,9 @@ class Ui {
   std::deque<MouseStep> mouse_;
   float seen_x_ = -1, seen_y_ = -1;  // as the panels see it now
   bool down_[3] = {};
-  std::vector<Box> boxes_;
+  [[nodiscard]] static bool holds(const std::vector<Box>& boxes, float x, float y);
+  std::vector<Box> boxes_, fields_;
+  bool field_has_keys_ = false;  // in the last picture
   KeysDown keys_;
   // a key that is released in the frame in which it was pressed stays down for one frame
   std::vector<SDL_Scancode> fresh_, let_go_, up_;
