@@ -289,6 +289,100 @@ TEST(Headset, WandIsWhereTheRuntimeSaysAndItsTriggerPulls) {
   EXPECT_TRUE(head.until([&] { return !head.now().wand.tracked; }));
 }
 
+TEST(Headset, ControllerVibratesWithTheForceAndWithinItsBounds) {
+  EXPECT_EQ(vibration_of(0), 0);
+  EXPECT_EQ(vibration_of(0.04), 0);
+  EXPECT_EQ(vibration_of(-1), 0);
+  EXPECT_EQ(vibration_of(std::numeric_limits<double>::quiet_NaN()), 0);
+  EXPECT_NEAR(vibration_of(1.5), kMostVibration / 2, 1e-12);
+  EXPECT_EQ(vibration_of(std::numeric_limits<double>::infinity()), kMostVibration);
+  for (double force = 0; force < 20; force += 0.01)
+    EXPECT_GE(vibration_of(force + 0.01), vibration_of(force));
+  BURR_NEEDS_GPU(gpu);
+  Worn worn;
+  PUT_ON(headset);
+  const Scene scene = two_balls();
+  OnTheHead head(headset, scene);
+  headset.vibrate(0.5);  // nothing before the session has the input of the hands
+  EXPECT_EQ(worn.xr().applied, 0);
+  ASSERT_TRUE(head.until([&] { return head.now().wand.tracked; }));
+  headset.vibrate(0.5);
+  EXPECT_NEAR(worn.xr().vibrates, 0.5, 1e-6);
+  EXPECT_NEAR(worn.xr().vibrates_for, Headset::kVibrates, 1e-9) << "it ends by itself";
+  headset.vibrate(7);
+  EXPECT_EQ(worn.xr().vibrates, 1.0F);
+  headset.vibrate(0);
+  EXPECT_EQ(worn.xr().vibrates, 0.0F);
+  EXPECT_EQ(worn.xr().stopped, 1);
+  headset.vibrate(0);
+  headset.vibrate(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(worn.xr().stopped, 1) << "what is still is not stopped again";
+  const int before = worn.xr().applied;
+  worn.xr().happens(XR_SESSION_STATE_VISIBLE);
+  ASSERT_TRUE(head.until([&] { return !head.now().wand.tracked; }));
+  headset.vibrate(0.5);
+  EXPECT_EQ(worn.xr().applied, before);
+}
+
+TEST(Headset, PenIsAHandWhereTheRuntimeKnowsIt) {
+  BURR_NEEDS_GPU(gpu);
+  {
+    Worn worn;
+    worn.xr().pen = true;
+    PUT_ON(headset);
+    EXPECT_EQ(worn.xr().bound,
+              (std::vector<std::string>{"/user/hand/right/input/tip_logitech/pose",
+                                        "/user/hand/right/input/cluster_middle_logitech/force",
+                                        "/user/hand/right/output/haptic"}));
+    const Scene scene = two_balls();
+    OnTheHead head(headset, scene);
+    worn.xr().trigger = 0.4F;
+    ASSERT_TRUE(head.until([&] { return head.now().wand.tracked; }));
+    EXPECT_NEAR(head.now().wand.trigger, 0.4, 1e-6);
+    headset.vibrate(0.3);
+    EXPECT_NEAR(worn.xr().vibrates, 0.3, 1e-6);
+  }
+  Worn worn;  // a runtime that does not know it is not asked for it
+  PUT_ON(headset);
+  EXPECT_FALSE(headset.over());
+  EXPECT_EQ(worn.xr().bound.size(), 6U);
+}
+
+TEST(Headset, RuntimeThatCannotVibrateIsUsedWithoutAndSaysSoOnce) {
+  BURR_NEEDS_GPU(gpu);
+  const Scene scene = two_balls();
+  const auto goes_on = [&scene](Headset& headset, Worn& worn) {
+    OnTheHead head(headset, scene);
+    EXPECT_TRUE(head.until([&] { return head.now().wand.tracked; }));
+    headset.vibrate(0.5);
+    headset.vibrate(0);
+    EXPECT_TRUE(head.pictures(worn, 2));
+    EXPECT_FALSE(headset.over()) << headset.why();
+    EXPECT_EQ(worn.xr().applied, 0);
+    const std::string missing = headset.take_missing();
+    EXPECT_NE(missing.find("does not let the controller vibrate"), std::string::npos) << missing;
+    EXPECT_EQ(headset.take_missing(), "");
+  };
+  {
+    Worn worn;
+    worn.xr().no_haptics = true;
+    PUT_ON(headset);
+    goes_on(headset, worn);
+    EXPECT_EQ(worn.xr().bound.size(), 4U) << "pose and trigger of two kinds";
+  }
+  {
+    Worn worn;
+    worn.xr().no_haptic_path = true;
+    PUT_ON(headset);
+    goes_on(headset, worn);
+  }
+  Worn worn;
+  worn.xr().haptic_answer = XR_ERROR_RUNTIME_FAILURE;
+  PUT_ON(headset);
+  EXPECT_EQ(headset.take_missing(), "") << "it is not known yet";
+  goes_on(headset, worn);
+}
+
 // ---- connecting and disconnecting
 
 TEST(Headset, TakenOffAndPutOnAgain) {

@@ -25,12 +25,17 @@
 
 namespace burr::render {
 
-// The controller in a hand.
+// The controller in a hand, or a pen (Logitech MX Ink).
 struct Wand {
   bool tracked = false;       // false: the other members are old or empty
   math::Pose room_from_wand;  // points along its -z; as the runtime reports it
-  double trigger = 0;         // 0..1
+  double trigger = 0;         // 0..1; of a pen: how hard its middle button is squeezed
 };
+
+// How strongly the controller vibrates for a contact force [N]: 0..kMostVibration. Nothing below what a hand
+// would notice, and no more above kFullForce. What is not a number is nothing.
+inline constexpr double kMostVibration = 0.8, kFeltForce = 0.05, kFullForce = 3;
+[[nodiscard]] double vibration_of(double force);
 
 class Headset {
  public:
@@ -50,6 +55,14 @@ class Headset {
   [[nodiscard]] std::optional<Now> begin(double wait_s);
   // Ends the frame: with the scene from these two cameras, or without a picture if eyes is false.
   void end(const Scene& scene, const std::array<Camera, 2>& cameras);
+
+  // The controller vibrates so strongly, 0..1, until the next call, and kVibrates at most: a program that hangs
+  // does not keep it on. Nothing while another program has the input of the hands. Once a frame.
+  void vibrate(double amplitude);
+  static constexpr double kVibrates = 0.1;  // [s]
+
+  // What this runtime cannot do, as a sentence, once; "": nothing (more) to say.
+  [[nodiscard]] std::string take_missing();
 
   [[nodiscard]] bool running() const;  // it wants pictures
   [[nodiscard]] bool over() const;     // it will want no more pictures

@@ -40,7 +40,7 @@ struct World {
   std::vector<std::unique_ptr<Chain>> chains;
   std::map<std::string, XrPath> paths;
   std::map<XrAction, XrActionType> actions;
-  int bound = 0;
+  bool pen = false;  // the extension of the pen was switched on
 };
 World* g_world = new World;
 
@@ -88,6 +88,7 @@ XrResult xrEnumerateInstanceExtensionProperties(const char*, std::uint32_t room,
   LOCKED;
   if (g_fake->no_runtime) return XR_ERROR_RUNTIME_UNAVAILABLE;
   std::vector<const char*> names = {"XR_MNDX_egl_enable"};
+  if (g_fake->pen) names.emplace_back("XR_LOGITECH_mx_ink_stylus_interaction");
   if (!g_fake->no_opengl) names.emplace_back(XR_KHR_OPENGL_ENABLE_EXTENSION_NAME);
   *count = static_cast<std::uint32_t>(names.size());
   if (room == 0) return XR_SUCCESS;
@@ -106,9 +107,13 @@ XrResult xrCreateInstance(const XrInstanceCreateInfo* info, XrInstance* to) {
   DEMAND(XR_VERSION_MAJOR(info->applicationInfo.apiVersion) == 1, XR_ERROR_API_VERSION_UNSUPPORTED);
   DEMAND(info->applicationInfo.applicationName[0] != '\0', XR_ERROR_NAME_INVALID);
   bool opengl = false;
-  for (std::uint32_t n = 0; n < info->enabledExtensionCount; ++n)
-    opengl = opengl ||
-             std::strcmp(info->enabledExtensionNames[n], XR_KHR_OPENGL_ENABLE_EXTENSION_NAME) == 0;
+  for (std::uint32_t n = 0; n < info->enabledExtensionCount; ++n) {
+    const std::string name = info->enabledExtensionNames[n];
+    opengl = opengl || name == XR_KHR_OPENGL_ENABLE_EXTENSION_NAME;
+    const bool pen = name == "XR_LOGITECH_mx_ink_stylus_interaction";
+    DEMAND(!pen || g_fake->pen, XR_ERROR_EXTENSION_NOT_PRESENT);
+    g_world->pen = g_world->pen || pen;
+  }
   DEMAND(opengl, XR_ERROR_EXTENSION_NOT_PRESENT);
   ++g_fake->instances;
   *to = kInstance;
@@ -511,14 +516,46 @@ XrResult xrSuggestInteractionProfileBindings(XrInstance,
   LOCKED;
   TYPED(info, XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
   DEMAND(!g_world->attached, XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
-  // it knows two kinds; a real runtime also knows only some
-  for (const char* known : {"/interaction_profiles/khr/simple_controller",
-                            "/interaction_profiles/oculus/touch_controller"})
-    if (g_world->paths[known] == info->interactionProfile) {
-      ++g_world->bound;
-      return XR_SUCCESS;
-    }
-  return XR_ERROR_PATH_UNSUPPORTED;
+  const auto name_of = [](XrPath wanted) {
+    for (const auto& [name, path] : g_world->paths)
+      if (path == wanted) return name;
+    return std::string();
+  };
+  // it knows two kinds, and a pen; a real runtime also knows only some (6.4, and the page of Logitech's extension)
+  static const std::map<std::string, std::map<std::string, XrActionType>> kKnown = {
+      {"khr/simple_controller",
+       {{"/input/aim/pose", XR_ACTION_TYPE_POSE_INPUT},
+        {"/input/select/click", XR_ACTION_TYPE_FLOAT_INPUT},
+        {"/output/haptic", XR_ACTION_TYPE_VIBRATION_OUTPUT}}},
+      {"oculus/touch_controller",
+       {{"/input/aim/pose", XR_ACTION_TYPE_POSE_INPUT},
+        {"/input/trigger/value", XR_ACTION_TYPE_FLOAT_INPUT},
+        {"/output/haptic", XR_ACTION_TYPE_VIBRATION_OUTPUT}}},
+      {"logitech/mx_ink_stylus_logitech",
+       {{"/input/tip_logitech/pose", XR_ACTION_TYPE_POSE_INPUT},
+        {"/input/tip_logitech/force", XR_ACTION_TYPE_FLOAT_INPUT},
+        {"/input/cluster_middle_logitech/force", XR_ACTION_TYPE_FLOAT_INPUT},
+        {"/output/haptic", XR_ACTION_TYPE_VIBRATION_OUTPUT}}}};
+  const std::string profile = name_of(info->interactionProfile);
+  constexpr std::size_t kBefore = 22;  // "/interaction_profiles/"
+  const auto known = kKnown.find(profile.size() > kBefore ? profile.substr(kBefore) : "");
+  const bool pens = profile.find("mx_ink") != std::string::npos;
+  DEMAND(!pens || g_world->pen, XR_ERROR_PATH_UNSUPPORTED);
+  if (known == kKnown.end()) return XR_ERROR_PATH_UNSUPPORTED;
+  for (std::uint32_t n = 0; n < info->countSuggestedBindings; ++n) {
+    const XrActionSuggestedBinding& one = info->suggestedBindings[n];
+    const std::string path = name_of(one.binding);
+    const std::string hand =
+        path.starts_with("/user/hand/left") ? "/user/hand/left" : "/user/hand/right";
+    DEMAND(path.starts_with(hand), XR_ERROR_PATH_UNSUPPORTED);
+    const auto part = known->second.find(path.substr(hand.size()));
+    if (g_fake->no_haptic_path && path.ends_with("/output/haptic"))
+      return XR_ERROR_PATH_UNSUPPORTED;
+    DEMAND(part != known->second.end(), XR_ERROR_PATH_UNSUPPORTED);
+    DEMAND(part->second == g_world->actions[one.action], XR_ERROR_ACTION_TYPE_MISMATCH);
+    if (pens || !g_fake->pen) g_fake->bound.push_back(path);
+  }
+  return XR_SUCCESS;
 }
 XrResult xrAttachSessionActionSets(XrSession, const XrSessionActionSetsAttachInfo* info) {
   LOCKED;
@@ -553,6 +590,36 @@ XrResult xrGetActionStateFloat(XrSession, const XrActionStateGetInfo* info,
          XR_ERROR_ACTION_TYPE_MISMATCH);
   to->isActive = XR_TRUE;
   to->currentState = g_fake->trigger;
+  return XR_SUCCESS;
+}
+XrResult xrApplyHapticFeedback(XrSession, const XrHapticActionInfo* info,
+                               const XrHapticBaseHeader* how) {
+  LOCKED;
+  ALIVE;
+  TYPED(info, XR_TYPE_HAPTIC_ACTION_INFO);
+  TYPED(how, XR_TYPE_HAPTIC_VIBRATION);
+  DEMAND(g_world->actions[info->action] == XR_ACTION_TYPE_VIBRATION_OUTPUT,
+         XR_ERROR_ACTION_TYPE_MISMATCH);
+  const auto& vibration = *reinterpret_cast<const XrHapticVibration*>(how);
+  DEMAND(vibration.amplitude >= 0 && vibration.amplitude <= 1, XR_ERROR_VALIDATION_FAILURE);
+  DEMAND(vibration.duration > 0 || vibration.duration == XR_MIN_HAPTIC_DURATION,
+         XR_ERROR_VALIDATION_FAILURE);
+  if (g_fake->state != XR_SESSION_STATE_FOCUSED) return XR_SESSION_NOT_FOCUSED;
+  if (XR_FAILED(g_fake->haptic_answer)) return g_fake->haptic_answer;
+  ++g_fake->applied;
+  g_fake->vibrates = vibration.amplitude;
+  g_fake->most_vibration = std::max(g_fake->most_vibration, vibration.amplitude);
+  g_fake->vibrates_for = 1e-9 * static_cast<double>(vibration.duration);
+  return XR_SUCCESS;
+}
+XrResult xrStopHapticFeedback(XrSession, const XrHapticActionInfo* info) {
+  LOCKED;
+  ALIVE;
+  TYPED(info, XR_TYPE_HAPTIC_ACTION_INFO);
+  DEMAND(g_world->actions[info->action] == XR_ACTION_TYPE_VIBRATION_OUTPUT,
+         XR_ERROR_ACTION_TYPE_MISMATCH);
+  ++g_fake->stopped;
+  g_fake->vibrates = 0;
   return XR_SUCCESS;
 }
 XrResult xrLocateSpace(XrSpace space, XrSpace base, XrTime time, XrSpaceLocation* to) {
@@ -621,6 +688,10 @@ extern "C" XrResult xrGetInstanceProcAddr(XrInstance instance, const char* name,
   OFFER(xrCreateActionSpace)
   OFFER(xrSyncActions)
   OFFER(xrGetActionStateFloat)
+  if (!g_fake->no_haptics) {
+    OFFER(xrApplyHapticFeedback)
+    OFFER(xrStopHapticFeedback)
+  }
   OFFER(xrLocateSpace)
   return *to == nullptr ? XR_ERROR_FUNCTION_UNSUPPORTED : XR_SUCCESS;
 }

@@ -36,6 +36,10 @@ struct FakeXr {
   XrPosef wand = {{0, 0, 0, 1}, {0.1F, -0.1F, -0.4F}};
   bool wand_tracked = true;
   float trigger = 0;
+  bool pen = false;  // it knows Logitech's MX Ink, and that is what the hand holds
+  // the functions that vibrate are missing; no controller has the path; what applying them answers
+  bool no_haptics = false, no_haptic_path = false;
+  XrResult haptic_answer = XR_SUCCESS;
 
   // ---- events: reported by xrPollEvent in order
   void happens(XrSessionState next) {
@@ -52,6 +56,11 @@ struct FakeXr {
     XrPosef pose = {};
   };
   std::array<Picture, 2> pictures;  // of the last frame with pictures
+  // of the controller: strength now, the largest so far, and when it ends by itself [s after the call]
+  float vibrates = 0, most_vibration = 0;
+  double vibrates_for = 0;
+  int applied = 0, stopped = 0;
+  std::vector<std::string> bound;  // every path that was suggested, of the profiles it knows
   int waited = 0, begun = 0, ended = 0, with_pictures = 0;
   int instances = 0, sessions = 0;  // existing now
   std::vector<std::string> breaches;

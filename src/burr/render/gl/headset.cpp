@@ -184,6 +184,54 @@ std::optional<Headset::Now> Headset::begin(double wait_s) {
   return now;
 }
 
+double vibration_of(double force) {
+  if (!(force > kFeltForce)) return 0;  // a NaN too
+  return kMostVibration * std::min(force / kFullForce, 1.0);
+}
+
+// Without vibration the headset is as good as before: only the motor is given up.
+void Headset::Work::cannot_shake(const std::string& because) {
+  shaker = XR_NULL_HANDLE;
+  shakes = false;
+  missing = fmt::format(
+      "The headset's runtime does not let the controller vibrate ({}); all else works. Update the "
+      "runtime if the controller can.",
+      because);
+}
+
+void Headset::Work::shaken(const char* call, XrResult code) {
+  if (code == XR_ERROR_SESSION_LOST || code == XR_ERROR_INSTANCE_LOST || XR_SUCCEEDED(code))
+    static_cast<void>(good(call, code));
+  else
+    cannot_shake(fmt::format("it refuses xr{}, {}", call, static_cast<int>(code)));
+}
+
+void Headset::vibrate(double amplitude) {
+  Work& w = *work_;
+  if (w.over || !w.running || !w.focused) {
+    w.shakes = false;  // the runtime ended it with the focus
+    return;
+  }
+  if (w.shaker == XR_NULL_HANDLE) return;
+  auto which = made<XrHapticActionInfo>(XR_TYPE_HAPTIC_ACTION_INFO);
+  which.action = w.shaker;
+  if (!(amplitude > 0)) {
+    if (std::exchange(w.shakes, false))
+      w.shaken("StopHapticFeedback", w.xr.StopHapticFeedback(w.session, &which));
+    return;
+  }
+  auto how = made<XrHapticVibration>(XR_TYPE_HAPTIC_VIBRATION);
+  how.amplitude = static_cast<float>(std::min(amplitude, 1.0));
+  how.duration = static_cast<XrDuration>(1e9 * kVibrates);
+  how.frequency = XR_FREQUENCY_UNSPECIFIED;
+  w.shakes = true;
+  w.shaken("ApplyHapticFeedback",
+           w.xr.ApplyHapticFeedback(w.session, &which,
+                                    reinterpret_cast<const XrHapticBaseHeader*>(&how)));
+}
+
+std::string Headset::take_missing() { return std::exchange(work_->missing, {}); }
+
 // Draws one eye's picture into the free image. False: there is none to show.
 bool Headset::Work::draw(int eye, const Scene& scene) {
   Screen& screen = screens[static_cast<std::size_t>(eye)];

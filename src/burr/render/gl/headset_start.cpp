@@ -29,6 +29,9 @@ Error refused(const char* call, XrResult code) {
                   call, static_cast<int>(code)));
 }
 
+// Logitech's MX Ink, a pen
+constexpr const char* kPenExtension = "XR_LOGITECH_mx_ink_stylus_interaction";
+
 void copy(char* to, std::size_t size, const char* from) {
   std::strncpy(to, from, size - 1);
   to[size - 1] = '\0';
@@ -85,6 +88,11 @@ Status Headset::Work::open() {
                       "runtime, or start burr with SDL_VIDEODRIVER=x11",
                       one));
 
+  has_pen = std::any_of(offered.begin(), offered.end(), [](const XrExtensionProperties& has) {
+    return std::strcmp(has.extensionName, kPenExtension) == 0;
+  });
+  if (has_pen) wanted.push_back(kPenExtension);
+
   auto info = made<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
   copy(info.applicationInfo.applicationName, XR_MAX_APPLICATION_NAME_SIZE, "burr");
   copy(info.applicationInfo.engineName, XR_MAX_ENGINE_NAME_SIZE, "burr");
@@ -97,6 +105,9 @@ Status Headset::Work::open() {
   if (XR_FAILED(created)) return refused("CreateInstance", created);
   BURR_XR_INSTANCE_CALLS(BURR_XR_FIND)
 #undef BURR_XR_FIND
+#define BURR_XR_FIND_IF_THERE(called) static_cast<void>(get(instance, "xr" #called, xr.called));
+  BURR_XR_HAPTIC_CALLS(BURR_XR_FIND_IF_THERE)
+#undef BURR_XR_FIND_IF_THERE
   return fine();
 }
 
@@ -199,7 +210,7 @@ Status Headset::Work::make_screens() {
   return fine();
 }
 
-// One hand: where it points, and how far its trigger is pulled.
+// One hand: where it points, how far its trigger is pulled, and that it vibrates.
 Status Headset::Work::make_actions(bool left_handed) {
   const std::string hand = left_handed ? "/user/hand/left" : "/user/hand/right";
   auto set = made<XrActionSetCreateInfo>(XR_TYPE_ACTION_SET_CREATE_INFO);
@@ -218,32 +229,12 @@ Status Headset::Work::make_actions(bool left_handed) {
   if (XR_FAILED(code)) return refused("CreateAction", code);
   code = action(XR_ACTION_TYPE_FLOAT_INPUT, "pedal", "Spindle", trigger);
   if (XR_FAILED(code)) return refused("CreateAction", code);
-
-  const auto path = [&](const std::string& text) {
-    XrPath at = XR_NULL_PATH;
-    xr.StringToPath(instance, text.c_str(), &at);
-    return at;
-  };
-  constexpr std::pair<const char*, const char*> kProfiles[] = {
-      {"khr/simple_controller", "select/click"},
-      {"oculus/touch_controller", "trigger/value"},
-      {"valve/index_controller", "trigger/value"},
-      {"htc/vive_controller", "trigger/value"},
-      {"microsoft/motion_controller", "trigger/value"}};
-  bool any = false;
-  for (const auto& [profile, pulled] : kProfiles) {
-    const std::array<XrActionSuggestedBinding, 2> bindings = {
-        {{pose, path(hand + "/input/aim/pose")}, {trigger, path(hand + "/input/" + pulled)}}};
-    auto suggested =
-        made<XrInteractionProfileSuggestedBinding>(XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
-    suggested.interactionProfile = path(std::string("/interaction_profiles/") + profile);
-    suggested.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
-    suggested.suggestedBindings = bindings.data();
-    // a runtime need not know all of them
-    code = xr.SuggestInteractionProfileBindings(instance, &suggested);
-    any = any || XR_SUCCEEDED(code);
-  }
-  if (!any) return refused("SuggestInteractionProfileBindings", code);
+  if (xr.ApplyHapticFeedback == nullptr || xr.StopHapticFeedback == nullptr)
+    cannot_shake("it lacks xrApplyHapticFeedback or xrStopHapticFeedback");
+  else if (XR_FAILED(code = action(XR_ACTION_TYPE_VIBRATION_OUTPUT, "cutting", "Cutting of bone",
+                                   shaker)))
+    cannot_shake(fmt::format("it refuses xrCreateAction, {}", static_cast<int>(code)));
+  if (const Status suggested = suggest_bindings(hand); !suggested) return suggested;
   auto attach = made<XrSessionActionSetsAttachInfo>(XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO);
   attach.countActionSets = 1;
   attach.actionSets = &actions;
@@ -254,6 +245,53 @@ Status Headset::Work::make_actions(bool left_handed) {
   space.poseInActionSpace.orientation.w = 1;
   code = xr.CreateActionSpace(session, &space, &wand);
   if (XR_FAILED(code)) return refused("CreateActionSpace", code);
+  return fine();
+}
+
+// What the actions are on each kind of controller. A runtime need not know all of them.
+Status Headset::Work::suggest_bindings(const std::string& hand) {
+  const auto path = [&](const std::string& text) {
+    XrPath at = XR_NULL_PATH;
+    xr.StringToPath(instance, text.c_str(), &at);
+    return at;
+  };
+  struct Profile {
+    const char *name, *points, *pulled;
+    bool pen;
+  };
+  constexpr Profile kProfiles[] = {
+      {"khr/simple_controller", "aim", "select/click", false},
+      {"oculus/touch_controller", "aim", "trigger/value", false},
+      {"valve/index_controller", "aim", "trigger/value", false},
+      {"htc/vive_controller", "aim", "trigger/value", false},
+      {"microsoft/motion_controller", "aim", "trigger/value", false},
+      // the tip of the pen is the head of the burr; squeezed in the air, its middle button is the pedal
+      {"logitech/mx_ink_stylus_logitech", "tip_logitech", "cluster_middle_logitech/force", true}};
+  XrResult code = XR_SUCCESS;
+  bool any = false, any_shakes = false;
+  for (const Profile& one : kProfiles) {
+    if (one.pen && !has_pen) continue;  // without the extension its names are not allowed
+    const std::array<XrActionSuggestedBinding, 3> bindings = {
+        {{pose, path(hand + "/input/" + one.points + "/pose")},
+         {trigger, path(hand + "/input/" + one.pulled)},
+         {shaker, path(hand + "/output/haptic")}}};
+    auto suggested =
+        made<XrInteractionProfileSuggestedBinding>(XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
+    suggested.interactionProfile = path(std::string("/interaction_profiles/") + one.name);
+    suggested.suggestedBindings = bindings.data();
+    // a controller whose runtime refuses the vibration is still a hand
+    for (const std::uint32_t count : {3U, 2U}) {
+      if (count == 3 && shaker == XR_NULL_HANDLE) continue;
+      suggested.countSuggestedBindings = count;
+      code = xr.SuggestInteractionProfileBindings(instance, &suggested);
+      if (XR_FAILED(code)) continue;
+      any = true;
+      any_shakes = any_shakes || count == 3;
+      break;
+    }
+  }
+  if (!any) return refused("SuggestInteractionProfileBindings", code);
+  if (!any_shakes && shaker != XR_NULL_HANDLE) cannot_shake("it knows no controller that does");
   return fine();
 }
 

@@ -45,9 +45,12 @@ struct Calls {
                                               call(SyncActions) call(GetActionStateFloat)       \
                                                   call(LocateSpace)                             \
                                                       call(GetOpenGLGraphicsRequirementsKHR)
+// a runtime without them moves no motor in a controller, but shows pictures
+#define BURR_XR_HAPTIC_CALLS(call) call(ApplyHapticFeedback) call(StopHapticFeedback)
 #define BURR_XR_MEMBER(name) PFN_xr##name name = nullptr;
   BURR_XR_CALLS(BURR_XR_MEMBER)
   BURR_XR_INSTANCE_CALLS(BURR_XR_MEMBER)
+  BURR_XR_HAPTIC_CALLS(BURR_XR_MEMBER)
 #undef BURR_XR_MEMBER
 };
 
@@ -72,6 +75,9 @@ struct Headset::Work {
   XrSpace room = XR_NULL_HANDLE, wand = XR_NULL_HANDLE;
   XrActionSet actions = XR_NULL_HANDLE;
   XrAction pose = XR_NULL_HANDLE, trigger = XR_NULL_HANDLE;
+  XrAction shaker = XR_NULL_HANDLE;  // none: the runtime cannot vibrate
+  bool has_pen = false;              // the runtime knows Logitech's MX Ink
+  bool shakes = false;               // the controller was told to vibrate
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   struct Screen {
     XrSwapchain chain = XR_NULL_HANDLE;
@@ -81,7 +87,7 @@ struct Headset::Work {
   };
   std::array<Screen, 2> screens;
   bool running = false, focused = false, over = false, begun = false;
-  std::string why, name;
+  std::string why, name, missing;
   XrTime due = 0;      // display time of the present frame
   bool shown = false;  // the frame will be shown
   std::array<XrView, 2> views = {};
@@ -105,11 +111,14 @@ struct Headset::Work {
   Status make_session();
   Status make_screens();
   Status make_actions(bool left_handed);
+  Status suggest_bindings(const std::string& hand);
   void start_waiter();
   void look_at_events();
   void changed(XrSessionState state);
   void end_session();
   bool good(const char* call, XrResult code);
+  void shaken(const char* call, XrResult code);
+  void cannot_shake(const std::string& because);
   void end_with(std::string because);
   void locate(Headset::Now& now);
   bool draw(int eye, const Scene& scene);
