@@ -11,11 +11,12 @@
 
 #include "burr/base/check.h"
 #include "burr/math/sums.h"
+#include "burr/metrics/corridor_width.h"
 #include "burr/metrics/line_and_plane.h"
+#include "burr/metrics/main_cut.h"
 #include "burr/metrics/same_math.h"
 #include "burr/metrics/solidity.h"
 #include "burr/volume/sample.h"
-#include "burr/volume/volume_of.h"
 
 namespace burr::metrics {
 namespace {
@@ -26,7 +27,6 @@ constexpr double kSliver = 0.1;    // a smaller part of a voxel has no border
 
 using math::Vec3;
 using volume::Bone;
-using volume::Field;
 
 // Directions across the axis in which a slice is measured.
 constexpr std::size_t kAround = 16;
@@ -82,28 +82,14 @@ struct Slice {
   }
 };
 
-std::map<int, Slice> slices_of(const Bone& before, const Bone& after, const PlannedAxis& plan,
-                               const Vec3& along, const Around& around, const Region& region,
-                               double thick) {
+std::map<int, Slice> slices_of(const MainCut& cut, const PlannedAxis& plan, const Vec3& along,
+                               const Around& around, double thick, double h) {
   std::map<int, Slice> slices;
-  const volume::Grid& grid = before.grid();
-  for (volume::BrickIndex brick = 0; brick < before.brick_count(); ++brick) {
-    const Field *was = before.brick_field(brick), *is = after.brick_field(brick);
-    if (was == nullptr) continue;
-    const math::Ijk first = before.brick_ijk(brick);
-    for (int v = 0; v < volume::kBrickVoxels; ++v) {
-      const std::int32_t gone =
-          volume::volume_units(std::int32_t{was[v]}) -
-          volume::volume_units(std::int32_t{is == nullptr ? Field{0} : is[v]});
-      if (gone <= 0) continue;
-      const math::Ijk at = first + math::Ijk(v & 7, (v >> 3) & 7, v >> 6);
-      const Vec3 place = grid.world_from_grid(at.cast<double>());
-      if (!contains(region, place)) continue;
-      const double t = math::dot(place - plan.entry, along);
-      Slice& slice = slices[static_cast<int>(std::floor(t / thick))];
-      const double share = static_cast<double>(gone) / static_cast<double>(volume::kVoxelUnits);
-      slice.add(place, place - plan.entry, share, grid.voxel, around);
-    }
+  for (const Gone& one : cut.gone) {
+    const Vec3 from_entry = one.place - plan.entry;
+    const double t = math::dot(from_entry, along);
+    slices[static_cast<int>(std::floor(t / thick))].add(one.place, from_entry, one.share, h,
+                                                        around);
   }
   return slices;
 }
@@ -162,20 +148,20 @@ struct AlongAxis {
 
 // Those with at least half of the median width, and a tenth of the median volume: the bone that was
 // removed from a slice may be dense or spongy, but the ends of a corridor are narrow.
-std::vector<const Slice*> slices_that_count(const std::map<int, Slice>& slices, const Vec3& entry,
-                                            const Vec3& along) {
+std::map<int, const Slice*> slices_that_count(const std::map<int, Slice>& slices, const Vec3& entry,
+                                              const Vec3& along) {
   std::vector<std::pair<double, double>> volumes, widths;  // weighted by volume
   for (const auto& [number, slice] : slices) {
     volumes.emplace_back(slice.volume, slice.volume);
     widths.emplace_back(slice.width(entry, along), slice.volume);
   }
-  std::vector<const Slice*> counted;
+  std::map<int, const Slice*> counted;
   if (volumes.empty()) return counted;
   const double volume = weighted_quantile(std::move(volumes), 0.5),
                width = weighted_quantile(std::move(widths), 0.5);
   for (const auto& [number, slice] : slices)
     if (slice.volume >= 0.1 * volume && slice.width(entry, along) >= 0.5 * width)
-      counted.push_back(&slice);
+      counted.emplace(number, &slice);
   return counted;
 }
 
@@ -203,6 +189,17 @@ Around around(const Vec3& w) {
   return out;
 }
 
+// Where no wall stands, the slices themselves say how wide they are.
+double width_of(const Bone& before, const MainCut& cut, const CorridorAxis& axis,
+                const std::map<int, const Slice*>& counted, const Vec3& entry,
+                const Region& region) {
+  if (const auto width = corridor_width(before, cut, axis, region)) return *width;
+  std::vector<std::pair<double, double>> widths;
+  for (const auto& [number, slice] : counted)
+    widths.emplace_back(slice->width(entry, axis.along), 1);
+  return weighted_quantile(std::move(widths), 0.5);
+}
+
 }  // namespace
 
 Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedAxis& plan,
@@ -212,21 +209,25 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   const double thick = h * std::ceil(0.5e-3 / h - 1e-6);  // whole voxels, so that none counts twice
   const Vec3 along = math::normalized(plan.inward);
   const Around directions = around(along);
-  const std::map<int, Slice> slices =
-      slices_of(before, after, plan, along, directions, region, thick);
-  const std::vector<const Slice*> counted = slices_that_count(slices, plan.entry, along);
+  const MainCut cut = main_cut(before, after, region);
+  const std::map<int, Slice> slices = slices_of(cut, plan, along, directions, thick, h);
+  const std::map<int, const Slice*> counted = slices_that_count(slices, plan.entry, along);
   if (counted.size() < 3) return NotAssessable{"nothing was drilled along the planned axis"};
   std::vector<WeightedPoint> centres;
-  for (const Slice* slice : counted)
+  for (const auto& [number, slice] : counted)
     centres.push_back({slice->middle(plan.entry, along, directions), 1});
 
   const LineThrough line = robust_line(centres, plan.entry, along);
   AxisFit out;
   out.inward = math::normalized(line.slope);
   out.angle = angle_between(out.inward, along);
-  std::vector<std::pair<double, double>> widths;
-  for (const Slice* slice : counted) widths.emplace_back(slice->width(plan.entry, out.inward), 1);
-  out.width = weighted_quantile(std::move(widths), 0.5);
+  out.width = width_of(before, cut,
+                       {line.at_zero, out.inward,
+                        [&](const Vec3& place) {
+                          const double t = math::dot(place - plan.entry, along);
+                          return counted.contains(static_cast<int>(std::floor(t / thick)));
+                        }},
+                       counted, plan.entry, region);
   const double length = static_cast<double>(centres.size()) * thick;
   if (length < kShortest * out.width)
     return NotAssessable{
@@ -255,6 +256,7 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   out.through = end.through;
   out.apex = axis.at(end.l);
   out.depth = (end.l - *entry) * math::dot(out.inward, along);
+  out.reach = math::dot(out.apex - plan.entry, along);
   out.error = 0.25 * h;
   for (const WeightedPoint& one : centres) out.centres.push_back(one.place);
   return out;

@@ -1,6 +1,6 @@
 // metrics/axis_fit.h - the axis of a drilled corridor against the planned one.
 //
-// The removed volume is divided into slices across the planned axis, as many whole voxels thick as
+// Of what was removed, the largest connected piece is the corridor (main_cut.h): a hole beside it is not. It is divided into slices across the planned axis, as many whole voxels thick as
 // make 0.5 mm. A robust line through the slices' middles is the axis; slices with less than
 // half of the median width (the ends) or a tenth of the median volume do not count. The middle of a slice is that of
 // its outline (the Steiner point of its hull, from 16 directions), so the pores of spongy bone do not shift it.
@@ -11,8 +11,9 @@
 //     depth    length of the corridor along the plan, from the entry to its end on the axis: the
 //              first bone that stands, or where the bone ended before the cut (`through`). Where the axis
 //              ends in an old pore, the deepest of eight lines beside it that end in bone counts
-//     width    median diameter of the slices: 2 sqrt(2) times the root mean square of the distance of what
-//              was removed to the axis, so spongy bone and the air in it do not make it smaller
+//     reach    how far its end lies from the planned entry along the plan: what a planned depth is compared with, since
+//              the bone's surface may lie beside the plan's first point
+//     width    where half of the bone round the axis stands again (corridor_width.h); pores do not count
 //
 // Frame: world. Units: m, rad. Not assessable: nothing was removed there, a corridor shorter than one and
 // a half of its diameters (too_little_done), or an axis that does not lead from the air outside into what was removed within
@@ -37,6 +38,7 @@ struct AxisFit {
   double entry_off = 0;  // [m]
   double angle = 0;      // [rad]
   double depth = 0;      // [m]
+  double reach = 0;      // [m]
   double width = 0;      // [m]
   bool through =
       false;         // the corridor ends in air that was there before: it passes through the bone

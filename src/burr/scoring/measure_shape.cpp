@@ -95,8 +95,8 @@ Outcome axis(const Item& item, Workpiece& scene) {
                   worst.out > 0 ? "a screw would stick out by" : "bone beside a screw (below 0)");
     out.place = worst.at;
   } else if (how == "axis_depth") {
-    out = at_most(item, std::abs(fit->depth - whole.norm()), item.limit("off_mm"), 0.5 * h,
-                  fit->depth > whole.norm() ? "too deep by" : "not deep enough by");
+    out = at_most(item, std::abs(fit->reach - whole.norm()), item.limit("off_mm"), 0.5 * h,
+                  fit->reach > whole.norm() ? "too deep by" : "not deep enough by");
     out.place = fit->apex;
   } else {
     out = at_most(item, std::abs(fit->width - item.limit("width_mm")), item.limit("off_mm"),
