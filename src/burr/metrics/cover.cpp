@@ -29,19 +29,26 @@ struct Seen {
   bool open = true;
 };
 
-// The first layer of bone along the normal before the cut.
-double plate_along(const Solidity& solidity, const Vec3& from, const Vec3& n, double cap) {
+struct Plate {
+  double before = 0, after = 0;  // [m]
+};
+
+// The first layer of bone along the normal before the cut, and what stands of it as far as the cut.
+Plate plate_along(const Solidity& solidity, const Vec3& from, const Vec3& n, double cap) {
   const double h = solidity.grid().voxel;
   constexpr double kStep = 0.25;  // [voxel]
-  double met = 0;
-  bool within = false;
+  Plate met;
+  bool within = false, cut = false;
   for (double l = -1; l * h < cap; l += kStep) {
-    const double sigma = solidity.at(from + l * n).before;
-    if (sigma < 0.5 && within) break;
-    within = within || sigma >= 0.5;
-    met += kStep * sigma;
+    const Solidity::Pair sigma = solidity.at(from + l * n);
+    if (sigma.before < 0.5 && within) break;
+    within = within || sigma.before >= 0.5;
+    met.before += kStep * sigma.before;
+    cut = cut || (sigma.before >= 0.5 && sigma.after < 0.5);
+    if (!cut) met.after += kStep * sigma.after;
   }
-  return within ? std::min(met * h, cap) : 0;
+  if (!within) return {};
+  return {std::min(met.before * h, cap), met.after * h};
 }
 
 Seen look_at(const Job& job, const SurfaceSample& surface) {
@@ -52,13 +59,15 @@ Seen look_at(const Job& job, const SurfaceSample& surface) {
   for (const Vec3& look : job.looks) {
     const Met met = walk(job.solidity, from, to_grid * look, n, job.ray);
     if (met.near >= kOpenBone) seen.open = false;
-    if (met.removed < job.least_removed || met.bone > job.ray.most_bone) continue;
+    if (!met.opened || met.removed < job.least_removed || met.bone > job.ray.most_bone) continue;
     if (met.bone >= seen.sample.cover) continue;
     seen.sample.cover = met.bone;
     seen.sample.thickness = met.across;
     seen.sample.look = look;
   }
-  seen.sample.plate_before = plate_along(job.solidity, from, n, job.ray.most_bone);
+  const Plate plate = plate_along(job.solidity, from, n, job.ray.most_bone);
+  seen.sample.plate_before = plate.before;
+  seen.sample.plate_after = plate.after;
   return seen;
 }
 
@@ -93,7 +102,7 @@ Assessed<Cover> cover_of(const Bone& before, const Bone& after, const VoxelSet& 
   const Solidity solidity(before, after, &structure, settings.glass);
   const Job job{solidity,
                 cones_about(settings.towards),
-                {settings.cap, kOpenReach},
+                {settings.cap, kOpenReach, settings.exposed},
                 std::max(settings.least_removed, 2 * h)};
   const std::vector<Seen> seen = look_at_all(job, patch->samples, settings.threads);
 

@@ -11,6 +11,9 @@
 // (The least product over all looks would not do for t: aslant looks halve the layer over the flank
 // of a tube.)
 //
+// With `exposed`, the look must also come into the air that was opened (open_cavity.h), and what lies before that counts as
+// bone, cells included: what is found is exposed as an area, not seen along lines through cells.
+//
 // Samples that were open from the start leave the patch: in no look does the bone before the cut have
 // 0.2 mm within 3 mm. If they were more than half of its weight, it is not assessable.
 //
@@ -25,6 +28,7 @@
 
 #include "burr/math/vec3.h"
 #include "burr/metrics/measured.h"
+#include "burr/metrics/open_cavity.h"
 #include "burr/metrics/region.h"
 #include "burr/metrics/structure_patch.h"
 #include "burr/metrics/voxel_set.h"
@@ -38,6 +42,7 @@ struct CoverSettings {
   double cap = 3e-3;                         // longer lengths of bone count as this         [m]
   double least_removed = 1e-3;               // w0, but at least two voxels                 [m]
   std::size_t most_samples = 600;            // 0: all; take more where areas are measured
+  const OpenCavity* exposed = nullptr;       // of the same bones; nullptr: any line of sight does
   int threads = 2;
 };
 
@@ -49,6 +54,7 @@ struct CoverSample {
   double thickness = kUnseen;            // t [m]
   math::Vec3 look = math::Vec3::Zero();  // the best one for tau, unit, to the surgeon; zero: none
   double plate_before = 0;  // the first layer of bone along n, before the cut; at most cap [m]
+  double plate_after = 0;   // what stands of that layer before the first cut in it [m]
 };
 
 struct Cover {

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <map>
 #include <utility>
+#include <vector>
 
+#include "burr/metrics/line_and_plane.h"
 #include "burr/metrics/shares.h"
 
 namespace burr::metrics {
@@ -12,24 +14,28 @@ namespace {
 
 constexpr double kSlice = 1e-3;  // [m]
 
-struct Best {
+struct Part {
   double cover = kUnseen;
   math::Vec3 at = math::Vec3::Zero();
-  bool any = false;
+  std::vector<std::pair<double, double>> covers;  // with their weights
 };
 
-std::map<int, Best> slices_of(const Cover& cover, const Course& course) {
-  std::map<int, Best> slices;
+std::map<int, Part> slices_of(const Cover& cover, const Course& course) {
+  std::map<int, Part> slices;
   for (const CoverSample& one : cover.samples) {
-    Best& best = slices[static_cast<int>(std::floor(course.along(one.surface.place) / kSlice))];
-    if (!best.any || one.cover < best.cover) best = {one.cover, one.surface.place, true};
+    Part& part = slices[static_cast<int>(std::floor(course.along(one.surface.place) / kSlice))];
+    if (part.covers.empty() || one.cover < part.cover) {
+      part.cover = one.cover;
+      part.at = one.surface.place;
+    }
+    part.covers.emplace_back(one.cover, one.surface.faces);
   }
   return slices;
 }
 
 double found_share(const std::vector<Identified::Slice>& slices, double x) {
   int found = 0;
-  for (const Identified::Slice& one : slices) found += one.cover <= x ? 1 : 0;
+  for (const Identified::Slice& one : slices) found += one.field_cover <= x ? 1 : 0;
   return static_cast<double>(found) / static_cast<double>(slices.size());
 }
 
@@ -61,9 +67,10 @@ Assessed<Identified> identified(const Cover& cover, const IdentifiedSettings& se
   Identified out;
   out.mark.threshold = settings.y.value_or(settings.course ? 0.6 : 0.3);
   if (settings.course) {
-    for (const auto& [number, best] : slices_of(cover, *settings.course)) {
-      out.slices.push_back({number * kSlice, best.cover});
-      remember(out, best.cover, best.at);
+    for (auto& [number, part] : slices_of(cover, *settings.course)) {
+      out.slices.push_back(
+          {number * kSlice, part.cover, weighted_quantile(std::move(part.covers), settings.field)});
+      remember(out, part.cover, part.at);
     }
     out.mark.value = found_share(out.slices, settings.x);
     out.mark.error =

@@ -54,7 +54,7 @@ Assessed<IntactPlate> intact_plate(const Cover& cover, const Worked& worked,
   for (const CoverSample& one : cover.samples) {
     if (one.plate_before < 2 * cover.voxel) {
       thin += one.surface.faces;
-    } else if (one.cover <= settings.bare) {
+    } else if (one.cover <= settings.bare && one.plate_after <= settings.bare) {
       bare.push_back(&one);
       area += one.surface.area;
     }
@@ -65,10 +65,8 @@ Assessed<IntactPlate> intact_plate(const Cover& cover, const Worked& worked,
         "the plate of bone over the structure was thinner than two voxels before "
         "the first cut; it needs finer voxels"};
   out.holes = holes_of(bare, cover.voxel, cover.thinned);
-  // A look aslant goes through 0.1 mm of the rim, and below it by the depth of a sample; thinned
-  // samples know the rim to their own distance.
-  const double rim =
-      0.77 * settings.bare + 0.6 * cover.voxel * std::sqrt(static_cast<double>(cover.thinned));
+  // thinned samples know the rim to their own distance
+  const double rim = 0.6 * cover.voxel * std::sqrt(static_cast<double>(cover.thinned));
   double error = 0;
   for (const IntactPlate::Hole& one : out.holes) error += 2 * rim * std::sqrt(kPi * one.area);
   out.mark = intact_mark(area, settings.most_area, error, worked);

@@ -1,16 +1,16 @@
 // metrics/intact_plate.h - is the bone over a structure without holes: the area that lies bare,
 // seen through the cavity.
 //
-//     area = sum over the samples with tau <= 0.1 mm of the area that each stands for
+//     area = sum of the areas for which the samples stand that are seen (tau <= 0.1 mm) and over which the plate is
+//            gone: along the normal at most 0.1 mm stands of the first layer of bone that was there
 //
 // met: area <= 1 mm^2 (not calibrated). By the condition on the cavity (metrics/cover.h) the area is
 // 0 before the first cut. Samples whose plate was thinner than 2 h before the cut leave the patch,
 // because such a plate may have holes of its own in the field; if they are more than half of it, the
 // measure is not assessable.
 //
-// A hole looks larger by about 0.15 mm all round, because looks aslant pass through 0.1 mm of its rim
-// and below it; `error` is that much of its border and 0.6 voxel. Make the Cover with many samples
-// (most_samples = 5000).
+// Looks aslant also see 0.15 mm of structure under a hole's rim: the normal tells that from the hole. `error` is 0.6 voxel of
+// the hole's border. Make the Cover with many samples (most_samples = 5000).
 // Thread: any.
 #pragma once
 

@@ -7,6 +7,7 @@
 
 #include "burr/base/check.h"
 #include "burr/math/sums.h"
+#include "burr/metrics/open_cavity.h"
 #include "burr/volume/sample.h"
 
 namespace burr::metrics {
@@ -39,9 +40,10 @@ int steps_in_brick(const Vec3& at, const Vec3& w) {
 }
 
 // Walks until step(p) says stop or the grid ends; the first point lies half a step behind `from`.
-template <class Step>
+// may_skip(): what is air before and after need not be looked at.
+template <class MaySkip, class Step>
 void march(const Solidity& solidity, const Vec3& from, const Vec3& w, double reach,
-           const Step& step) {
+           const MaySkip& may_skip, const Step& step) {
   const math::Ijk& size = solidity.grid().size;
   for (int n = 0;;) {
     const double l = (n + 0.5) * kStep;
@@ -51,7 +53,7 @@ void march(const Solidity& solidity, const Vec3& from, const Vec3& w, double rea
       if (p[a] < -1 && w[a] <= 0) return;
     for (int a = 0; a < 3; ++a)
       if (p[a] > size[a] && w[a] >= 0) return;
-    if (solidity.is_clear(nearest(p.x()), nearest(p.y()), nearest(p.z()))) {
+    if (may_skip() && solidity.is_clear(nearest(p.x()), nearest(p.y()), nearest(p.z()))) {
       n += steps_in_brick(p, w);
       continue;
     }
@@ -175,22 +177,31 @@ Met walk(const Solidity& solidity, const Vec3& from, const Vec3& w, const Vec3& 
   const double slant = std::max(0.5, math::dot(n, w));
   const double end = settings.most_bone / h, near_end = settings.near_reach / h;
   Met met;  // [voxel] until the end
-  march(solidity, start, w, std::numeric_limits<double>::infinity(), [&](const Vec3& p, double l) {
+  met.opened = settings.open == nullptr;
+  bool under_bone = false;
+  // air under bone that the cavity does not reach hides as bone does
+  const auto may_skip = [&] { return met.opened || !under_bone; };
+  const auto step = [&](const Vec3& p, double l) {
     const Solidity::Pair sigma = solidity.at(p);
-    met.bone += kStep * sigma.after;
+    met.opened = met.opened || settings.open->has(p);
+    met.bone += kStep * (may_skip() ? sigma.after : 1);
+    under_bone = under_bone || sigma.after >= 0.5;
     met.removed += kStep * std::max(0.0, sigma.before - sigma.after);
     if (l <= near_end) met.near += kStep * sigma.before;
     return met.bone <= end;
-  });
-  return {met.bone * h, met.bone * slant * h, met.removed * h, met.near * h};
+  };
+  march(solidity, start, w, std::numeric_limits<double>::infinity(), may_skip, step);
+  return {met.bone * h, met.bone * slant * h, met.removed * h, met.near * h, met.opened};
 }
 
 bool is_blocked(const Solidity& solidity, const Vec3& from, const Vec3& w, double reach) {
   bool blocked = false;
-  march(solidity, from, w, reach, [&](const Vec3& p, double) {
-    blocked = solidity.at(p).after >= 0.5;
-    return !blocked;
-  });
+  march(
+      solidity, from, w, reach, [] { return true; },
+      [&](const Vec3& p, double) {
+        blocked = solidity.at(p).after >= 0.5;
+        return !blocked;
+      });
   return blocked;
 }
 

@@ -68,17 +68,22 @@ class Solidity {
   std::vector<std::uint8_t> flags_;
 };
 
+class OpenCavity;
+
 // What a ray meets from a point, in world lengths [m].
 struct Met {
   double bone = 0;     // after                                            integral of sigma
   double across = 0;   // the same, each piece times max(1/2, n . w)
   double removed = 0;  // integral of rho
   double near = 0;     // bone before, within `near_reach` of the start
+  bool opened = true;  // it came into the open cavity, where one was given
 };
 
 struct RaySettings {
   double most_bone = 3e-3;   // the ray ends when it has met more             [m]
   double near_reach = 3e-3;  // for `near`                                    [m]
+  // With it, air between bone and this cavity counts as bone: cells that nobody opened hide what lies behind them.
+  const OpenCavity* open = nullptr;
 };
 
 // Walks from `from` (p_grid) along the unit vector w (grid axes) to the end of the grid, in steps of

@@ -59,7 +59,7 @@ std::vector<Spot> spots_at(const std::vector<math::Vec3>& places) {
 }
 
 Outcome identified(const Item& item, Workpiece& scene) {
-  const auto& cover = scene.cover(item.structure, item.region, kSamples);
+  const auto& cover = scene.cover(item.structure, item.region, kSamples, true);
   if (!cover) return not_assessable(item, cover.reason());
   metrics::IdentifiedSettings settings;
   settings.x = item.limit("cover_mm");
@@ -76,7 +76,7 @@ Outcome identified(const Item& item, Workpiece& scene) {
 }
 
 Outcome skeletonised(const Item& item, Workpiece& scene) {
-  const auto& cover = scene.cover(item.structure, item.region, kSamples);
+  const auto& cover = scene.cover(item.structure, item.region, kSamples, true);
   if (!cover) return not_assessable(item, cover.reason());
   const auto thin = metrics::skeletonised(
       *cover, scene.worked(),
@@ -105,7 +105,7 @@ Outcome intact_solid(const Item& item, Workpiece& scene) {
 }
 
 Outcome intact_plate(const Item& item, Workpiece& scene) {
-  const auto& cover = scene.cover(item.structure, item.region, kSamplesOfArea);
+  const auto& cover = scene.cover(item.structure, item.region, kSamplesOfArea, false);
   if (!cover) return not_assessable(item, cover.reason());
   metrics::IntactPlateSettings settings;
   settings.most_area = item.limit("most_mm2");

@@ -138,8 +138,8 @@ Region Workpiece::regions(const std::vector<std::string>& names) {
 
 const metrics::Assessed<metrics::Cover>& Workpiece::cover(const std::string& structure,
                                                           const std::string& region,
-                                                          std::size_t most_samples) {
-  const auto key = std::tuple(structure, region, most_samples);
+                                                          std::size_t most_samples, bool exposed) {
+  const auto key = std::tuple(structure, region, most_samples, exposed);
   const auto found = covers_.find(key);
   if (found != covers_.end()) return found->second;
   metrics::CoverSettings settings;
@@ -147,6 +147,10 @@ const metrics::Assessed<metrics::Cover>& Workpiece::cover(const std::string& str
   settings.glass = glass();
   settings.most_samples = most_samples;
   settings.threads = kThreads;
+  if (exposed && !open_)
+    open_.emplace(before_, after_,
+                  metrics::OpenCavitySettings{.glass = glass(), .threads = kThreads});
+  if (exposed) settings.exposed = &*open_;
   return covers_
       .emplace(key, metrics::cover_of(before_, after_, voxels(structure), this->region(region),
                                       settings))

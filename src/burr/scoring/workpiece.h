@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "burr/metrics/cavity_shape.h"
 #include "burr/metrics/cover.h"
 #include "burr/metrics/measured.h"
+#include "burr/metrics/open_cavity.h"
 #include "burr/metrics/plane_fit.h"
 #include "burr/metrics/region.h"
 #include "burr/metrics/removed.h"
@@ -48,9 +50,11 @@ class Workpiece {
   [[nodiscard]] std::shared_ptr<const volume::DistanceTo> distance_to_solid();
   // "": everywhere
   [[nodiscard]] metrics::Region region(const std::string& name);
+  // exposed: as an area that was opened; otherwise along any line (metrics/cover.h)
   [[nodiscard]] const metrics::Assessed<metrics::Cover>& cover(const std::string& structure,
                                                                const std::string& region,
-                                                               std::size_t most_samples);
+                                                               std::size_t most_samples,
+                                                               bool exposed);
   [[nodiscard]] metrics::Region regions(const std::vector<std::string>& names);  // all in one; some
   // Of that region, by name; the corridor along a curve in it; the cut at a plane in it; the cavity whose
   // plan it is, of all that was cut `within` a region (empty: anywhere).
@@ -76,8 +80,10 @@ class Workpiece {
   bool stopped_ = false;
   std::map<std::string, metrics::VoxelSet> voxels_;
   std::map<std::string, std::shared_ptr<const volume::DistanceTo>> distances_;
-  std::map<std::tuple<std::string, std::string, std::size_t>, metrics::Assessed<metrics::Cover>>
+  std::map<std::tuple<std::string, std::string, std::size_t, bool>,
+           metrics::Assessed<metrics::Cover>>
       covers_;
+  std::optional<metrics::OpenCavity> open_;
   std::map<std::string, metrics::Assessed<metrics::Removed>> removed_;
   std::map<std::pair<std::string, std::string>, metrics::Assessed<metrics::AxisFit>> axes_;
   std::map<std::pair<std::string, std::string>, metrics::Assessed<metrics::PlaneFit>> planes_;
