@@ -105,5 +105,16 @@ TEST(KnownBones, AHoleInThePlateIsAsLargeAsItIs) {
   EXPECT_FALSE(ear.met("facial.not-bare"));
 }
 
+// The bone behind y = 8 mm is gone each time, so that what is kept is a merit.
+TEST(KnownBones, ACanalWallMayBeThinnedEvenlyAndNotHoled) {
+  KnownBone ear("temporal-bone");
+  ear.cut("half 0 1 0 8");
+  EXPECT_TRUE(ear.met("canal-wall.kept"));
+  ear.cut("half 0 1 0 8 ; cyl 7 0 0.3 7 9 0.3 1.5");
+  EXPECT_FALSE(ear.met("canal-wall.kept")) << *ear.outcome("canal-wall.kept").value;
+  ear.cut("half 0 1 0 2 ; -tube ear_canal 5.2");  // the canal's radius is 4.1 to 4.2 mm here
+  EXPECT_TRUE(ear.met("canal-wall.kept")) << *ear.outcome("canal-wall.kept").value;
+}
+
 }  // namespace
 }  // namespace burr::scoring
