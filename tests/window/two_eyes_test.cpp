@@ -255,8 +255,20 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
             [&] {
               EXPECT_NE(worn.xr().pictures[0].rgba, worn.xr().pictures[1].rgba);
               EXPECT_EQ(removed(), 0) << "no trigger, no spindle";
-              worn.change([](FakeXr& xr) { xr.trigger = 1; });
               put_wand(work - 1e-3 * (place - work) / 10e-3);
+            }},
+           {"pressed on the bone without a trigger",
+            [&, n = 0, felt = 0]() mutable {
+              tick::TickRow row;
+              static_cast<void>(ready->session->view(row));
+              if (row.contact.force.norm() > render::kFeltForce) ++felt;
+              if (++n % 240 == 0) put_wand(place);  // a busy machine lets the force go
+              if (n % 240 == 60) put_wand(work - 1e-3 * (place - work) / 10e-3);
+              return felt > 10;
+            },
+            [&] {
+              EXPECT_EQ(worn.xr().most_vibration, 0.0F) << "nothing is cut";
+              worn.change([](FakeXr& xr) { xr.trigger = 1; });
             }},
            {"bone cut by it",
             [&, n = 0]() mutable {
@@ -267,6 +279,8 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
               return false;
             },
             [&] {
+              EXPECT_GT(worn.xr().most_vibration, 0) << "the controller shows the cutting";
+              EXPECT_LE(worn.xr().most_vibration, static_cast<float>(render::kMostVibration));
               told = 0;
               worn.change(
                   [](FakeXr& xr) { xr.wand.position.y = std::numeric_limits<float>::quiet_NaN(); });
@@ -277,6 +291,7 @@ TEST_F(Headset, WandIsTheHandThroughTheSafetyLayerUntilTheRuntimeGoes) {
             [&] {
               EXPECT_TRUE(burr().allFinite());
               EXPECT_EQ(removed(), gone);
+              EXPECT_EQ(worn.xr().vibrates, 0.0F) << "nothing is cut any more";
               worn.change([](FakeXr& xr) { xr.trigger = 0; });
               put_wand(place);
             }},

@@ -200,6 +200,7 @@ Status Mill::show(workshop::LiveSurface& live) {
     shown = desk_.show(scene_, says ? [this] { panels(); } : std::function<void()>());
   }
   station_.talk();
+  parts_.headset.feel(row_, over_.page() || parts_.hand.stopped());
   parts_.headset.end(scene_);
   live.drawn(std::chrono::duration<double>(Clock::now() - drawing).count(),
              desk_.renderer().figures().redrawn);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -20,7 +21,9 @@ std::string WornHeadset::look_for_it() {
     auto made = render::Headset::start(desk_.renderer(), desk_.settings.left_handed);
     if (made) {
       desk_.headset = std::move(*made);
-      return say(Word::headset_on, desk_.headset->name());
+      const std::string missing = desk_.headset->take_missing();
+      if (!missing.empty()) fmt::print(stderr, "{}\n", missing);
+      return say(Word::headset_on, desk_.headset->name()) + (missing.empty() ? "" : ". " + missing);
     }
     desk_.headset_wanted = false;
     fmt::print(stderr, "{}\n", in_options(made.error()).text);
@@ -60,11 +63,24 @@ std::string WornHeadset::begin(render::FrameGovernor& governor, const render::Ca
     cameras_[eye] = render::placed(camera, seen_->room_from_eye[eye]);
   wand_at_ = seen_->wand;
   wand_ = wand_ || wand_at_.tracked;
+  if (line.empty()) line = desk_.headset->take_missing();
   return line;
 }
 
 void WornHeadset::end(const render::Scene& scene) {
   if (seen_ && desk_.headset != nullptr) desk_.headset->end(scene, cameras_);
+}
+
+// A burr that cuts takes some bone in most ticks, not in all: a gap of less than kQuiet is none.
+void WornHeadset::feel(const tick::TickRow& row, bool rests) {
+  constexpr auto kQuiet = std::chrono::milliseconds(50);
+  const auto now = std::chrono::steady_clock::now();
+  const double more = row.ledger.removed - std::exchange(removed_, row.ledger.removed);
+  if (more > 0) cut_at_ = now;
+  if (desk_.headset == nullptr) return;
+  const bool cuts = cut_at_ && now - *cut_at_ < kQuiet;
+  const bool felt = wand_ && wand_at_.tracked && cuts && !rests;
+  desk_.headset->vibrate(felt ? render::vibration_of(row.contact.force.norm()) : 0);
 }
 
 std::optional<mouse::MouseHand::Aim> WornHeadset::aim(const render::Camera& camera,

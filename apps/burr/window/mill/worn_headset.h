@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "burr/render/governor.h"
 #include "burr/render/headset.h"
 #include "burr/render/scene.h"
+#include "burr/tick/rows.h"
 #include "window/ui/desk.h"
 
 namespace burr::app {
@@ -25,6 +27,9 @@ class WornHeadset {
   // none.
   [[nodiscard]] std::string begin(render::FrameGovernor& governor, const render::Camera& camera);
   void end(const render::Scene& scene);
+  // The controller vibrates with the force of this tick while it is the hand and bone is removed. Once a picture.
+  // rests: a page is open, or the work is stopped.
+  void feel(const tick::TickRow& row, bool rests);
   void take_off();
 
   [[nodiscard]] bool shows() const { return seen_.has_value(); }
@@ -48,6 +53,8 @@ class WornHeadset {
   std::optional<render::Headset::Now> seen_;  // of the frame begun
   std::array<render::Camera, 2> cameras_;
   render::Wand wand_at_;
+  double removed_ = 0;  // of the newest tick that was felt [m^3]
+  std::optional<std::chrono::steady_clock::time_point> cut_at_;  // bone was last removed
 };
 
 }  // namespace burr::app
