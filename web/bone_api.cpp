@@ -92,6 +92,11 @@ EMSCRIPTEN_KEEPALIVE const Given* core_patch() {
   return &c.given;
 }
 EMSCRIPTEN_KEEPALIVE int core_patches_due() { return static_cast<int>(shown->due.size()); }
+// All patches are due once more, for somebody who has none of them.
+EMSCRIPTEN_KEEPALIVE void core_again() {
+  std::fill(shown->given_hashes.begin(), shown->given_hashes.end(), 0);
+  want_all(*shown);
+}
 
 // The soft structures; their vertices are render::SkinVertex. nullptr: that was all.
 EMSCRIPTEN_KEEPALIVE const Given* core_soft() {

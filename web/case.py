@@ -22,8 +22,13 @@ def main():
     text = case.read_text()
     read = tomllib.loads(text)
     targets = [{"tissue": one["tissue"], "goal": one["goal"], "share": one.get("share", 1)} for one in read.get("target", [])]
+    burr, work = read["burr"], read["work"]
     out.write_text(json.dumps({
+        "name": case.stem.replace("_", "-"),
         "text": text,
+        "phantom": f"phantom:{read['phantom']}",
+        "burr_mm": burr["diameter_mm"], "diamond": burr["kind"] == "diamond", "rpm": burr["rpm"],
+        "at": [one / 1000 for one in work["at_mm"]], "into": work["into"],
         "rubric_hash": text_hash(rubric.read_bytes()),
         "spare": [one["tissue"] for one in read.get("spare", [])],
         "targets": targets,

@@ -2,6 +2,7 @@
 //
 //     core_make(voxel_mm) -> [ core_patch() ]* -> core_soft() -> core_begin()
 //     then, each beat: core_aim(), core_step(ticks), core_row(), [ core_patch() ]*
+//     a session that comes back: core_begin(), [ core_redo() ]*, core_redone(), and then as above
 //
 // One thread: each call belongs to it. What a call gives lies in the module's memory until the next
 // call of the same function. Structs go to the page as the bytes that they are; the page runs the
@@ -22,12 +23,14 @@
 #include "burr/base/progress.h"
 #include "burr/math/aabb.h"
 #include "burr/math/rotation.h"
-#include "burr/mouse/mouse_hand.h"
 #include "burr/phantom/build.h"
 #include "burr/record/bone_blob.h"
+#include "burr/rt/flags.h"
 #include "burr/tick/servo.h"
+#include "burr/tool/burr_tool.h"
 #include "burr/volume/bone.h"
 #include "burr/volume/iso_vertices.h"
+#include "page_hand.h"
 #include "page_recorder.h"
 #include "work_of_page.h"
 
@@ -37,11 +40,10 @@ using namespace burr;
 using math::Vec3;
 
 constexpr std::size_t kReserveBricks = 2048;
-constexpr double kRpm = 80000;  // cases/temporal_bone.toml
 
 struct Core : web::ShownBone {
   std::unique_ptr<volume::IsoVertices> surface;
-  std::unique_ptr<mouse::MouseHand> hand;
+  std::unique_ptr<web::PageHand> hand;
   std::unique_ptr<tick::Servo> servo;
   bool own = false;                             // bone of the user's own scan
   std::unique_ptr<web::PageRecorder> recorder;  // nullptr: it has failed, or is finished
@@ -54,6 +56,8 @@ struct Core : web::ShownBone {
 
 std::unique_ptr<Core> core;
 web::PageTask task;  // of the sessions that begin from now on
+tool::Burr first_burr;
+double first_rpm = web::kRpm;
 
 void begin_core() {
   core = std::make_unique<Core>();
@@ -64,8 +68,8 @@ void begin_core() {
 tick::ServoSettings settings_for(const device::DeviceSpec& spec) {
   tick::ServoSettings settings;
   settings.rate_hz = web::kRate;
-  settings.burr.radius = web::kBurrRadius;
-  settings.spindle_rad_s = kRpm * 2 * std::numbers::pi / 60;
+  settings.burr = first_burr;
+  settings.spindle_rad_s = first_rpm * 2 * std::numbers::pi / 60;
   settings.force.stiffness = tick::coupling_of(spec, settings).stiffness;
   settings.force.damping = std::min(settings.force.damping, spec.max_damping);
   return settings;
@@ -114,8 +118,9 @@ EMSCRIPTEN_KEEPALIVE int core_make(double voxel_mm) {
   return 1;
 }
 
-// A bone of the user's own scan (web/import): the bytes that record::bone_to_blob() made. 0: core_why() says why not.
-EMSCRIPTEN_KEEPALIVE int core_take(const std::uint8_t* bytes, int size) {
+// Another bone: the bytes that record::bone_to_blob() made. own: not 0: of the user's own scan (web/import), else of a
+// case (web/score). 0: core_why() says why not.
+EMSCRIPTEN_KEEPALIVE int core_take(const std::uint8_t* bytes, int size, int own) {
   begin_core();
   auto bone =
       record::bone_from_blob({bytes, static_cast<std::size_t>(size)}, kReserveBricks, "bone");
@@ -123,17 +128,27 @@ EMSCRIPTEN_KEEPALIVE int core_take(const std::uint8_t* bytes, int size) {
     core->why = bone.error().text;
     return 0;
   }
-  core->own = true;
+  core->own = own != 0;
   core->voxel_mm = 1e3 * (*bone)->grid().voxel;
   core->take(std::move(*bone));
+  core->changed_for_steps = &core->bone->add_watcher();
   return 1;
 }
 
-// What the sessions that begin from now on are for: the case (its text, and what web/case.py has read of
-// it), the hash of its rubric in hexadecimal, the mode. Then core_spare() and core_target() for each.
-EMSCRIPTEN_KEEPALIVE void core_task(const char* text, const char* rubric_hash, const char* mode) {
+// The burr that the sessions begin with from now on: its radius [m], diamond or not, its speed [rpm].
+EMSCRIPTEN_KEEPALIVE void core_burr(double radius, int diamond, double rpm) {
+  first_burr = {};
+  first_burr.radius = radius;
+  first_burr.kind = diamond != 0 ? tool::BurrKind::diamond : tool::BurrKind::cutting;
+  first_rpm = rpm;
+}
+// What they are for: the case (its name, its text, and what web/case.py has read of it), the hash of its rubric in hexadecimal, the
+// mode, its bone ("phantom:..."). Then core_spare() and core_target() for each.
+EMSCRIPTEN_KEEPALIVE void core_task(const char* name, const char* text, const char* rubric_hash,
+                                    const char* mode, const char* phantom) {
   task = {};
-  task.work_case.name = web::kCase;
+  task.phantom = phantom;
+  task.work_case.name = name;
   task.work_case.text = text;
   task.rubric_hash = std::strtoull(rubric_hash, nullptr, 16);
   task.mode = record::mode_of(mode).value_or(record::Mode::free);
@@ -157,7 +172,7 @@ EMSCRIPTEN_KEEPALIVE void core_begin() {
   above.p = web::work_at() - 20e-3 * web::work_into();
   above.q = math::shortest_rotation(Vec3::UnitZ(), -web::work_into());
   if (c.own) above = above_all(*c.bone);
-  c.hand = std::make_unique<mouse::MouseHand>(above);
+  c.hand = std::make_unique<web::PageHand>(above);
   tick::ServoSettings settings = settings_for(c.hand->spec());
   // the servo takes no burr of less than four voxels
   settings.burr.radius = std::max(settings.burr.radius, 2 * c.bone->grid().voxel);
@@ -202,7 +217,58 @@ EMSCRIPTEN_KEEPALIVE int core_finish_recording(int declared) {
   if (!done) c.why = done.error().text;
   return done ? 1 : 0;
 }
+// A complete file of everything so far, PageRecorder::kCopy, while the recording goes on. 0: core_why() says why there is none.
+EMSCRIPTEN_KEEPALIVE int core_copy_recording() {
+  Core& c = *core;
+  if (c.recorder == nullptr) return 0;
+  c.undrained = 0;
+  const Status done = c.recorder->copy();
+  if (!done) c.why = done.error().text;
+  return done ? 1 : 0;
+}
 EMSCRIPTEN_KEEPALIVE const char* core_why() { return core->why.c_str(); }
+
+// Ticks of a recording once more, with the commands that were taken at their starts. How many gave what they gave then; fewer
+// than `count`: the next one did not, and is part of the session all the same.
+EMSCRIPTEN_KEEPALIVE int core_redo(const web::RedoTick* ticks, int count,
+                                   const web::RedoCommand* commands, int command_count) {
+  constexpr int kCommitEvery = 50;
+  Core& c = *core;
+  int next = 0;
+  for (int n = 0; n < count; ++n) {
+    for (; next < command_count && commands[next].tick <= ticks[n].tick; ++next)
+      static_cast<void>(c.servo->commands().push(
+          {static_cast<tick::CommandKind>(commands[next].kind), commands[next].value, {}}));
+    c.hand->repeat(ticks[n].hand);
+    c.row = c.servo->tick(false);
+    c.servo->publish();
+    if (c.recorder != nullptr && ++c.undrained >= web::PageRecorder::kDue) drain(c);
+    if (n % kCommitEvery == 0 || n + 1 == count) {
+      c.bone->commit_ahead();
+      c.surface->commit_ahead();
+      c.servo->commit_ahead();
+    }
+    if (c.row.tick != ticks[n].tick || c.row.hash != ticks[n].hash) return n;
+  }
+  return count;
+}
+// The hand is the mouse's again. It hovers where the burr is.
+EMSCRIPTEN_KEEPALIVE void core_redone() {
+  mouse::MouseHand::Aim aim;
+  aim.world_from_tool = {core->row.contact.proxy, core->row.hand.world_from_tool.q};
+  aim.hovers = true;
+  core->hand->aim(aim);
+}
+// The number of the last tick.
+EMSCRIPTEN_KEEPALIVE double core_tick() { return static_cast<double>(core->row.tick); }
+// Bone that is gone now [mm^3].
+EMSCRIPTEN_KEEPALIVE double core_removed() {
+  return 1e9 * (core->row.ledger.removed - core->row.ledger.undone);
+}
+// Whether bone is being put back.
+EMSCRIPTEN_KEEPALIVE int core_restoring() {
+  return (core->row.contact.flags & rt::kFlagRestoring) != 0 ? 1 : 0;
+}
 
 // Where the hand shall be: the bytes of a MouseHand::Aim are written here, then core_aimed() is called.
 EMSCRIPTEN_KEEPALIVE void* core_aim() {

@@ -24,7 +24,7 @@ list(FILTER render EXCLUDE REGEX
 set(phantom build shapes sculpt temporal_bone temporal_bone_model)
 list(TRANSFORM phantom REPLACE "(.+)" "${src}/phantom/\\1.cpp")
 file(GLOB mouse CONFIGURE_DEPENDS ${src}/mouse/*.cpp)
-set(record pen file_lock mcap/mcap_writer schema protobuf tick_columns bricks command_json session_schema session_info view course grid_json tool_json identity private_text bone_blob)
+set(record pen file_lock mcap/mcap_writer mcap/mcap_copy schema protobuf tick_columns bricks command_json session_schema session_info view course grid_json tool_json identity private_text bone_blob)
 set(reading chain player player_bone player_notes assumed_tool mcap/mcap_reader mcap/mcap_scan mcap/mcap_summary mcap/lz4_frame)
 foreach(list record reading)
   list(TRANSFORM ${list} REPLACE "(.+)" "${src}/record/\\1.cpp")
@@ -83,15 +83,22 @@ target_link_options(burr_replay PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
 # The second module, burr_score: the steps of the case, its score and the report. It is loaded when the first cut is possible,
-# so that nobody waits for it. Its texts: the page's case, its rubric, the tools, the words of the window.
+# so that nobody waits for it. Its texts: the cases, their rubrics, the tools, the words of the window.
 include(${PROJECT_SOURCE_DIR}/cmake/words.cmake)
 function(burr_text variable name file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${file} text)
   set(${variable} "    {\"${name}\", R\"toml(${text})toml\"},\n" PARENT_SCOPE)
 endfunction()
-burr_text(BURR_CASE_TEXTS temporal-bone ${PROJECT_SOURCE_DIR}/cases/temporal_bone.toml)
-burr_text(BURR_RUBRIC_TEXTS temporal-bone ${PROJECT_SOURCE_DIR}/rubrics/temporal_bone.toml)
+set(BURR_CASE_TEXTS "")
+set(BURR_RUBRIC_TEXTS "")
+foreach(file temporal_bone jaw spine tooth block)
+  string(REPLACE _ - name ${file})
+  burr_text(case_text ${name} ${PROJECT_SOURCE_DIR}/cases/${file}.toml)
+  burr_text(rubric_text ${name} ${PROJECT_SOURCE_DIR}/rubrics/${file}.toml)
+  string(APPEND BURR_CASE_TEXTS "${case_text}")
+  string(APPEND BURR_RUBRIC_TEXTS "${rubric_text}")
+endforeach()
 file(READ ${PROJECT_SOURCE_DIR}/tools/tools.toml BURR_TOOLS_TEXT)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/tools.toml)
 foreach(texts cases rubrics tools)
@@ -117,7 +124,7 @@ target_link_libraries(burr_score PRIVATE burr_score_parts burr_record_parts burr
 set_target_properties(burr_score PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)
 target_link_options(burr_score PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=worker -sFORCE_FILESYSTEM=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=4GB
-  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS)
+  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
 # The third module, burr_sound: a sound thread loads nothing and has no JavaScript of emscripten's.
 add_executable(burr_sound ${web_dir}/sound/sound_api.cpp ${src}/sound/synth.cpp ${src}/workshop/sound_tracker.cpp)
@@ -163,7 +170,7 @@ add_custom_command(OUTPUT ${codecs}/licences.txt
 # the folder for a host: the module, the pages, the words, the codecs
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/pages/*)
 file(GLOB word_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/words/*.toml ${PROJECT_SOURCE_DIR}/web/words/*.toml)
-add_custom_command(OUTPUT ${site}/words.json
+add_custom_command(OUTPUT ${site}/words/en.json
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${site}
   COMMAND ${CMAKE_COMMAND} -E copy_directory ${PROJECT_SOURCE_DIR}/web/pages ${site}
   COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_BINARY_DIR}/web/burr_page.mjs ${CMAKE_BINARY_DIR}/web/burr_page.wasm
@@ -173,7 +180,7 @@ add_custom_command(OUTPUT ${site}/words.json
   COMMAND ${CMAKE_COMMAND} -E copy_directory ${codecs} ${site}/codecs
   COMMAND Python3::Interpreter ${web_dir}/case.py ${PROJECT_SOURCE_DIR}/cases/temporal_bone.toml
     ${PROJECT_SOURCE_DIR}/rubrics/temporal_bone.toml ${site}/case.json
-  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/web/words.py ${PROJECT_SOURCE_DIR} ${site}/words.json
+  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/web/words.py ${PROJECT_SOURCE_DIR} ${site}
   DEPENDS burr_page burr_score burr_sound burr_import burr_replay ${codecs}/licences.txt ${pages} ${word_files} ${PROJECT_SOURCE_DIR}/web/words.py ${web_dir}/case.py COMMENT "The pages: ${site}" VERBATIM)
 
 # as it is shipped: parts in a folder that their hash names, packed, with the files that hosts read
@@ -181,5 +188,5 @@ set(published ${CMAKE_BINARY_DIR}/published)
 file(GLOB publishing CONFIGURE_DEPENDS ${web_dir}/publish/*)
 add_custom_command(OUTPUT ${published}/version.json
   COMMAND Python3::Interpreter -B ${web_dir}/publish/publish.py ${site} ${published} ${PROJECT_VERSION}
-  DEPENDS ${site}/words.json ${publishing} COMMENT "The page for hosts: ${published}" VERBATIM)
+  DEPENDS ${site}/words/en.json ${publishing} COMMENT "The page for hosts: ${published}" VERBATIM)
 add_custom_target(site ALL DEPENDS ${published}/version.json)

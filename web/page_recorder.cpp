@@ -38,7 +38,7 @@ Result<std::unique_ptr<PageRecorder>> PageRecorder::begin(const volume::Bone& bo
   info.volume.has_intensity = bone.has_intensity();
   if (voxel_mm > 0) {  // of a scan nothing goes into the file but the bone itself
     info.volume.format = "formula";
-    info.volume.recipe.source = kPhantom;
+    info.volume.recipe.source = task.phantom;
     info.volume.recipe.voxel_mm = voxel_mm;
   }
   info.volume.recipe.reserve_bricks = bone.free_slots();

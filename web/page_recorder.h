@@ -25,6 +25,7 @@ struct PageTask {
   record::CaseInfo work_case;  // its hash is not needed
   record::Mode mode = record::Mode::free;
   std::uint64_t rubric_hash = 0;
+  std::string phantom;  // "phantom:" and the name of the bone; empty: it is no phantom
 };
 
 class PageRecorder {
@@ -32,7 +33,7 @@ class PageRecorder {
   static constexpr const char* kFile = "/burr.mcap";  // in the module's own file system
 
   // bone: as it is before the first tick, after the surface was made; it goes into the file.
-  // settings: as the servo has them. voxel_mm: of the page's own bone; 0: a bone of the user's.
+  // settings: as the servo has them. voxel_mm: of a phantom; 0: a bone of the user's.
   [[nodiscard]] static Result<std::unique_ptr<PageRecorder>> begin(
       const volume::Bone& bone, const tick::ServoSettings& settings,
       const device::DeviceSpec& device, double voxel_mm, const PageTask& task);
@@ -41,6 +42,12 @@ class PageRecorder {
   // Writes what waits. Call it at least every kDue ticks.
   static constexpr int kDue = 200;
   [[nodiscard]] Status drain() { return pen_->drain(); }
+  // The file kCopy: complete, with everything so far; the recording goes on.
+  static constexpr const char* kCopy = "/copy.mcap";
+  [[nodiscard]] Status copy() {
+    const Status drained = pen_->drain();
+    return drained.ok() ? pen_->writer().copy_to(kCopy, kCopy) : drained;
+  }
   // A step, a mark, the end: beside the ticks.
   void note(const record::CourseEvent& event) {
     if (record::check(event).ok()) pen_->notes().put({false, event.tick, record::to_json(event)});

@@ -21,6 +21,7 @@
 #include "burr/mouse/mouse_aim.h"
 #include "burr/render/governor.h"
 #include "burr/render/held_tool.h"
+#include "burr/render/pick.h"
 #include "burr/render/renderer.h"
 #include "burr/render/soft_scene.h"
 #include "burr/render/thin_patch.h"
@@ -66,6 +67,8 @@ struct View {
   double now = 0, drawn_at = 0;  // the last picture, and the last in which bone was drawn [s]
   bool thin_shown = false;       // some of it was drawn with fewer triangles
   std::string why;               // of the last call that failed
+  math::Vec3 work_at = web::work_at(), work_into = web::work_into();  // what the first view shows
+  double work_high = 2 * std::clamp(20 * web::kBurrRadius, 20e-3, 70e-3);
 };
 
 View& view() {
@@ -75,8 +78,17 @@ View& view() {
 
 // As the window begins (apps/burr/shared/window_session.cpp).
 render::Camera first_camera() {
-  const double height = std::clamp(20 * web::kBurrRadius, 20e-3, 70e-3);
-  return render::view_of_work(web::work_at(), -web::work_into(), 2 * height);
+  const View& v = view();
+  return render::view_of_work(v.work_at, -v.work_into, v.work_high);
+}
+
+// How far the bone hides a place from this camera [m]; 0: it is seen.
+double hidden(const View& v, const render::Camera& camera, const math::Vec3& place) {
+  const math::Vec3 way = place - camera.eye();
+  const double far = way.norm();
+  if (far <= 0) return 0;
+  const auto hit = render::pick(v.scene, {camera.eye(), way / far});
+  return hit ? std::max(0.0, far - hit->distance) : 0;
 }
 
 surface::Patch patch_of(const surface::Vertex* vertices, int vertex_count,
@@ -180,6 +192,41 @@ EMSCRIPTEN_KEEPALIVE int view_open(int width, int height) {
   return 1;
 }
 EMSCRIPTEN_KEEPALIVE const char* view_why() { return view().why.c_str(); }
+// The browser has taken the canvas's context away. Until view_open() has made another one, on the same canvas or a new one, nothing
+// that asks for the picture may be called; the bone and its changes are taken as before.
+EMSCRIPTEN_KEEPALIVE void view_lost() { view().renderer.reset(); }
+// Where the first view looks: the place [m], the way into the bone, the burr's radius there [m].
+EMSCRIPTEN_KEEPALIVE void view_work(double x, double y, double z, double into_x, double into_y,
+                                    double into_z, double radius) {
+  View& v = view();
+  v.work_at = {x, y, z};
+  v.work_into = {into_x, into_y, into_z};
+  v.work_high = 2 * std::clamp(20 * radius, 20e-3, 70e-3);
+}
+// Turns the view to a place [m]: it stands in the middle, seen from where the bone hides it least, from as near to the present side
+// as may be; `high` of the picture at its depth [m].
+EMSCRIPTEN_KEEPALIVE void view_turn_to(double x, double y, double z, double high) {
+  View& v = view();
+  const math::Vec3 place(x, y, z);
+  const double distance = 0.5 * high / std::tan(0.5 * v.scene.camera.field_of_view);
+  const render::Camera from = v.scene.camera;
+  constexpr double kStep = 0.35, kMostHidden = 1e-3;  // [rad], [m]
+  double least = 1e9;
+  for (const double up : {0.0, 1.0, -1.0, 2.0, -2.0, 3.0})
+    for (const double aside : {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.5, -4.5, 6.0, -6.0, 9.0}) {
+      render::Camera one = from;
+      one.placed.reset();
+      one.target = place;
+      one.distance = distance;
+      render::orbit(one, kStep * aside, kStep * up);
+      const double behind = std::max(0.0, hidden(v, one, place) - kMostHidden);
+      const double cost = behind + 1e-4 * (std::abs(up) + std::abs(aside));
+      if (cost < least) {
+        least = cost;
+        v.scene.camera = one;
+      }
+    }
+}
 EMSCRIPTEN_KEEPALIVE const char* view_gpu() {
   static std::string name;
   name = view().renderer->gpu();

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Writes the words of the page: those that it shares with the window, and its own.
+"""Writes the words of the page: those that it shares with the window, and its own. A file for each language, so that nobody waits for
+the words of another one, and the list of the languages.
 
-    web/words.py ROOT OUT.json
+    web/words.py ROOT SITE      writes SITE/words/CODE.json and SITE/common/languages.js
 
 Every language of ROOT/words needs all keys of SHARED, and a file with the page's own words in ROOT/web/words.
 """
@@ -17,8 +18,10 @@ mode_title mode_free mode_learn mode_practise mode_exam done_button""".split()
 
 
 def main():
-    root, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-    words = {}
+    root, site = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    names = {}
+    (site / "words").mkdir(parents=True, exist_ok=True)
+    (site / "common").mkdir(exist_ok=True)
     own_keys = None
     for file in sorted((root / "words").glob("*.toml")):
         window = tomllib.loads(file.read_text())
@@ -32,9 +35,11 @@ def main():
         missing = [key for key in SHARED if key not in window]
         if missing:
             sys.exit(f"{file}: lacks {missing}, which the page shows")
-        words[file.stem] = {key: window[key] for key in SHARED if key != "language"}
-        words[file.stem] |= own | {"name": window["language"]}
-    out.write_text(json.dumps(words, ensure_ascii=False, sort_keys=True))
+        words = {key: window[key] for key in SHARED if key != "language"} | own
+        (site / "words" / f"{file.stem}.json").write_text(json.dumps(words, ensure_ascii=False, sort_keys=True))
+        names[file.stem] = window["language"]
+    (site / "common/languages.js").write_text(
+        f"// Written by web/words.py.\nexport const kLanguages = {json.dumps(names, ensure_ascii=False, sort_keys=True)};\n")
 
 
 main()

@@ -20,6 +20,7 @@ inline math::Vec3 work_at() { return {-2e-3, 11e-3, 5e-3}; }
 inline math::Vec3 work_into() { return {1, 0, 0}; }
 
 inline constexpr const char* kCase = "temporal-bone";
+inline constexpr double kRpm = 80000;
 
 // A brick that was cut, on its way from the worker that ticks to the one that looks at the steps.
 struct ChangedBrick {

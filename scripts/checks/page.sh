@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The page, burr in a browser: opens, mills, records, in Chromium without a screen (web/tests/page_test.py), and
-# has the course of a session: steps, score, report, sound (web/tests/course_test.py). The page is the
-# one that scripts/checks/portable.sh web has built. First its codecs, by node (tests/web/page_codecs.h); at the end
-# the page as it is shipped (web/tests/shipped_test.py).
+# has the course of a session: steps, score, report, sound (web/tests/course_test.py); no work is lost (web/tests/loss_test.py). The
+# page is the one that scripts/checks/portable.sh web has built. First its codecs, by node (tests/web/page_codecs.h); at the end the page as
+# it is shipped (web/tests/shipped_test.py). By hand: web/tests/screens_test.py, any screen.
 #
 #     scripts/checks/page.sh BUILD [PICTURES]      PICTURES: a folder that keeps the screenshots
 #
@@ -23,6 +23,7 @@ done
 BURR_SITE=build/web/site "$build/test_web" --gtest_brief=1 --gtest_filter='PageCodecs*'
 python3 web/tests/page_test.py build/web/site "$build/burr" ${2:+"$2"}
 python3 web/tests/course_test.py build/web/site "$build/burr" ${2:+"$2"}
+python3 web/tests/loss_test.py build/web/site "$build/burr" ${2:+"$2"}
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 "$build/burr" web --out "$out/page"

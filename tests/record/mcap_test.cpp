@@ -313,6 +313,65 @@ TEST(Mcap, ALongRecordingTakesNoMoreMemoryThanAShortOne) {
   }
 }
 
+// A file of so many chunks of a made-up recording; copies: after how many of them a copy is made, "copy N".
+void write_chunks(const std::string& path, int chunks, const std::set<int>& copies) {
+  std::mt19937_64 random(17);  // the same chunks in every file
+  McapWriter writer;
+  ASSERT_TRUE(writer.open(path, path).ok());
+  const auto schema = writer.add_schema("any", "jsonschema", "{}");
+  const auto one = writer.add_channel("/one", "json", *schema),
+             other = writer.add_channel("/other", "json", *schema);
+  ASSERT_TRUE(one.ok() && other.ok());
+  ASSERT_TRUE(writer.add_metadata("some", {{"key", "value"}}).ok());
+  ASSERT_TRUE(writer.add_attachment("bone", "any", Bytes(100'000, 7)).ok());
+  for (int n = 0; n < chunks; ++n) {
+    for (std::uint32_t message = 0; message < 5; ++message) {
+      Bytes data(random() % 3000);
+      for (auto& byte : data) byte = static_cast<std::uint8_t>(random() % 8);
+      writer.add_message(message % 2 == 0 ? *one : *other, message,
+                         static_cast<std::uint64_t>(1000 * n) + message, data);
+    }
+    ASSERT_TRUE(writer.close_chunk().ok());
+    const std::string copy = path + fmt::format(".copy{}", n + 1);
+    if (copies.contains(n + 1)) {
+      ASSERT_TRUE(writer.copy_to(copy, copy).ok());
+    }
+  }
+  ASSERT_TRUE(writer.finish().ok());
+}
+
+TEST(Mcap, ACopyIsCompleteAndTheRecordingGoesOn) {
+  const Folder folder;
+  const std::string whole = folder / "whole.mcap", copied = folder / "copied.mcap";
+  write_chunks(whole, 9, {});
+  write_chunks(copied, 9, {1, 4, 9});
+  EXPECT_EQ(bytes_of_file(copied), bytes_of_file(whole)) << "as if no copy had been made";
+  for (const int chunks : {1, 4, 9}) {
+    const std::string copy = copied + fmt::format(".copy{}", chunks),
+                      alone = folder / fmt::format("alone{}.mcap", chunks);
+    write_chunks(alone, chunks, {});
+    EXPECT_EQ(bytes_of_file(copy), bytes_of_file(alone)) << "as if the recording had ended there";
+    const auto read = McapReader::open(copy, McapReader::Trust::nothing);
+    ASSERT_TRUE(read.ok());
+    EXPECT_TRUE((*read)->finished());
+  }
+}
+
+TEST(Mcap, ACopyThatCannotBeMadeHarmsNothing) {
+  const Folder folder;
+  const std::string path = folder / "s.mcap", nowhere = folder / "no folder/copy.mcap";
+  McapWriter writer;
+  ASSERT_TRUE(writer.open(path, path).ok());
+  ASSERT_TRUE(writer.add_metadata("some", {{"key", "value"}}).ok());
+  const Status made = writer.copy_to(nowhere, nowhere);
+  ASSERT_FALSE(made.ok());
+  EXPECT_NE(made.error().text.find(nowhere), std::string::npos) << made.error().text;
+  ASSERT_TRUE(writer.finish().ok());
+  const auto read = McapReader::open(path, McapReader::Trust::nothing);
+  ASSERT_TRUE(read.ok());
+  EXPECT_TRUE((*read)->finished());
+}
+
 TEST(Mcap, TheMcapProjectsOwnReaderAgrees) {
   BURR_SEEDED(random, 14);
   const Folder folder;

@@ -17,24 +17,24 @@ import sys
 WEB = pathlib.Path(__file__).resolve().parents[1]
 
 
-def fetch(folder):
-    """The folder node_modules of the lock."""
-    lock = b"".join((WEB / name).read_bytes() for name in ("package.json", "package-lock.json"))
+def fetch(folder, where=WEB):
+    """The folder node_modules of the lock that lies in `where`."""
+    lock = b"".join((where / name).read_bytes() for name in ("package.json", "package-lock.json"))
     mark, wanted = folder / "fetched", hashlib.sha256(lock).hexdigest()
     if mark.exists() and mark.read_text() == wanted:
         return folder / "node_modules"
     npm = shutil.which("npm")
     if npm is None:
-        sys.exit("burr: the page needs npm, which fetches its codecs, and that is missing: apt-get install npm")
+        sys.exit("burr: the page needs npm, which fetches what others made, and that is missing: apt-get install npm")
     folder.mkdir(parents=True, exist_ok=True)
     mark.unlink(missing_ok=True)
     for name in ("package.json", "package-lock.json"):
-        shutil.copy(WEB / name, folder / name)
+        shutil.copy(where / name, folder / name)
     done = subprocess.run([npm, "ci", "--ignore-scripts", "--omit=dev", "--omit=optional", "--no-audit", "--no-fund",
                            "--fetch-retries=3", "--no-update-notifier"], cwd=folder, capture_output=True, text=True)
     if done.returncode != 0:
         said = [line.split(" ", 2)[-1] for line in done.stderr.splitlines() if re.match(r"npm (error|ERR!) .*\w", line)]
-        sys.exit("burr: npm could not fetch the page's codecs, the packages of web/package-lock.json, from its registry; "
+        sys.exit(f"burr: npm could not fetch the packages of {where.relative_to(WEB.parent)}/package-lock.json from its registry; "
                  f"is there a network? npm says: {(said or ['nothing'])[0]}")
     mark.write_text(wanted)
     return folder / "node_modules"

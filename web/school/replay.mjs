@@ -21,7 +21,7 @@ async function view_of_bones(kit) {
     });
   try {
     const all = await modules;
-    all.words.choose(kit.language());
+    await all.words.choose(kit.language());
     return all;
   } catch {
     modules = null;

@@ -1,7 +1,8 @@
 // What the page's second worker calls (pages/mill/score_worker.js): the steps of the case while somebody
 // cuts, and at the end the questions, the score and the report. All of it is the window's own code.
 //
-//     score_open(mode, voxel_mm, language), score_words(), score_begin()
+//     score_cases(), score_case(name): the cases that there are, and the bone of one
+//     score_open(case, mode, voxel_mm), score_words(), score_begin()
 //     then: score_steps(); score_take(changed bricks), score_look(); score_done(), score_choose()
 //     at the end: score_questions(); the recording as kFile, score_mark(), score_marks(), score_page()
 //
@@ -23,8 +24,10 @@
 #include "burr/guidance/step_marks.h"
 #include "burr/guidance/steps.h"
 #include "burr/guidance/suits.h"
-#include "burr/phantom/build.h"
+#include "burr/phantom/phantoms.h"
+#include "burr/record/bone_blob.h"
 #include "burr/record/identity.h"
+#include "burr/record/session_info.h"
 #include "burr/report/make_report.h"
 #include "burr/report/questions.h"
 #include "burr/report/report_page.h"
@@ -63,6 +66,7 @@ struct Course {
 
 std::unique_ptr<Course> course;
 std::string why, text;
+std::vector<std::uint8_t> bone;  // that score_case() was last asked for
 
 const char* as_text(const ordered_json& what) {
   text = what.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -86,9 +90,15 @@ ordered_json json_of(const report::ReportMark& mark) {
   return {{"word", mark.word}, {"tone", kTones[static_cast<std::size_t>(mark.tone)]}};
 }
 
-bool open_case(const std::string& mode, double voxel_mm) {
+// The page makes it by the same formula (core_api.cpp), or gets it from score_case().
+Result<std::unique_ptr<volume::Bone>> bone_of(const scenario::Case& work, double voxel_mm) {
+  NoProgress quiet;
+  return phantom::phantom(work.phantom, voxel_mm, quiet, kReserveBricks, 1);
+}
+
+bool open_case(const char* name, const std::string& mode, double voxel_mm) {
   auto made = std::make_unique<Course>();
-  auto work = scenario::read_case(web::kCase);
+  auto work = scenario::read_case(name);
   if (!work) return failed(work.error());
   made->work = std::move(*work);
   const auto rubric = scoring::read_rubric(made->work.name);
@@ -99,12 +109,8 @@ bool open_case(const std::string& mode, double voxel_mm) {
   made->mode = record::mode_of(mode).value_or(record::Mode::free);
   made->allowed = workshop::allowed_in(made->mode, made->lesson.feedback, true);
   made->steps = guidance::Steps(made->lesson.steps);
-  const double voxel = 1e-3 * voxel_mm;
-  const phantom::Phantom bone = web::phantom_of_page(voxel);
-  NoProgress quiet;
-  auto before = phantom::bone_from_formula(phantom::box_grid(bone.lo, bone.hi, voxel), bone.tissues,
-                                           bone.formula, kReserveBricks, 1, quiet);
-  if (!before) return failed(error("there is not enough memory"));
+  auto before = bone_of(made->work, voxel_mm);
+  if (!before) return failed(before.error());
   made->before = std::move(*before);
   made->now = volume::copy_of(*made->before);
   course = std::move(made);
@@ -165,6 +171,11 @@ ordered_json json_of(const report::ReportItem& item) {
   row["figures"] = item.figures;
   row["default"] = item.default_word;
   row["remarks"] = item.remarks;
+  row["at_s"] = nullptr;
+  if (item.at_s) row["at_s"] = *item.at_s;
+  row["at_end"] = item.at_end;
+  row["place"] = nullptr;
+  if (item.place) row["place"] = {item.place->x(), item.place->y(), item.place->z()};  // [m]
   return row;
 }
 
@@ -253,10 +264,70 @@ extern "C" {
 
 EMSCRIPTEN_KEEPALIVE const char* score_why() { return why.c_str(); }
 
-// The case on the bone of the page, before the first cut.
-EMSCRIPTEN_KEEPALIVE int score_open(const char* mode, double voxel_mm) {
+// The built-in cases: [{name, title, voxel_mm}], that of the page first.
+EMSCRIPTEN_KEEPALIVE const char* score_cases() {
+  ordered_json out = ordered_json::array();
+  for (const std::string& name : scenario::built_in_cases()) {
+    const auto work = scenario::read_case(name);
+    const auto rubric = scoring::read_rubric(name);
+    if (!work || !rubric) continue;
+    const auto lesson = report::lesson_for(*work, *rubric);
+    const std::string title = lesson ? lesson->title.in(words::spoken().code) : std::string();
+    ordered_json one = {{"name", name},
+                        {"title", title.empty() ? work->title : title},
+                        {"voxel_mm", scenario::voxel_mm(*work)}};
+    if (name == web::kCase)
+      out.insert(out.begin(), std::move(one));
+    else
+      out.push_back(std::move(one));
+  }
+  return as_text(out);
+}
+
+// What a worker needs to begin with a case (web/case.py writes the same of the page's), and its bone: score_bone().
+EMSCRIPTEN_KEEPALIVE const char* score_case(const char* name, double voxel_mm) {
+  const auto work = scenario::read_case(name);
+  if (!work) {
+    failed(work.error());
+    return nullptr;
+  }
+  const auto rubric = scoring::read_rubric(work->name);
+  if (!rubric) {
+    failed(rubric.error());
+    return nullptr;
+  }
+  const double voxel = voxel_mm > 0 ? voxel_mm : scenario::voxel_mm(*work);
+  auto made = bone_of(*work, voxel);
+  if (!made) {
+    failed(made.error());
+    return nullptr;
+  }
+  bone = record::bone_to_blob(**made);
+  ordered_json out = {{"name", work->name}, {"text", work->text}};
+  out["rubric_hash"] = record::hex(rubric->text_hash).substr(2);
+  out["phantom"] = "phantom:" + work->phantom;
+  out["spare"] = work->spare;
+  out["targets"] = ordered_json::array();
+  for (const scenario::Target& one : work->targets)
+    out["targets"].push_back(
+        {{"tissue", one.tissue}, {"goal", scenario::word_of(one.goal)}, {"share", one.share}});
+  out["voxel_mm"] = voxel;
+  out["burr_mm"] = scenario::burr_mm(*work);
+  out["diamond"] = work->burr.kind == tool::BurrKind::diamond;
+  out["rpm"] = scenario::rpm(*work);
+  const math::Vec3 at = work->at.value_or(math::Vec3::Zero());
+  const math::Vec3 into = work->into.value_or(math::Vec3(0, 0, -1));
+  out["at"] = {at.x(), at.y(), at.z()};
+  out["into"] = {into.x(), into.y(), into.z()};
+  return as_text(out);
+}
+EMSCRIPTEN_KEEPALIVE const std::uint8_t* score_bone() { return bone.data(); }
+EMSCRIPTEN_KEEPALIVE int score_bone_size() { return static_cast<int>(bone.size()); }
+
+// The case on its bone, before the first cut.
+EMSCRIPTEN_KEEPALIVE int score_open(const char* name, const char* mode, double voxel_mm) {
   course.reset();
-  return open_case(mode, voxel_mm) ? 1 : 0;
+  return open_case(name, mode, voxel_mm) ? 1 : 0;
 }
 
 EMSCRIPTEN_KEEPALIVE void score_speak(const char* language) { words::speak(language); }

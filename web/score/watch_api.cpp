@@ -2,7 +2,7 @@
 // one sentence about technique; ten times a second or more, so none of it waits for a measurement of a step. All of it is the
 // window's own code (window/mill/mill_steps.cpp, mill_status.cpp), with a bone of its own: distances are those before the first cut.
 //
-//     watch_open(mode, voxel_mm), watch_allowed()
+//     watch_open(case, mode, voxel_mm), watch_allowed()
 //     then: a tick::TickRow into watch_row(), watch_look(heard); watch_step(id) when another step begins
 //
 // One thread. Texts are JSON, in the module's memory until the next call of the same function.
@@ -20,7 +20,7 @@
 #include "burr/guidance/injury.h"
 #include "burr/guidance/suits.h"
 #include "burr/guidance/technique.h"
-#include "burr/phantom/build.h"
+#include "burr/phantom/phantoms.h"
 #include "burr/record/course.h"
 #include "burr/record/identity.h"
 #include "burr/record/private_text.h"
@@ -68,8 +68,8 @@ bool refused(const Error& error) {
   return false;
 }
 
-bool open_watch(const std::string& mode, double voxel_mm) {
-  auto work = scenario::read_case(web::kCase);
+bool open_watch(const char* name, const std::string& mode, double voxel_mm) {
+  auto work = scenario::read_case(name);
   if (!work) return refused(work.error());
   const auto rubric = scoring::read_rubric(work->name);
   if (!rubric) return refused(rubric.error());
@@ -80,11 +80,9 @@ bool open_watch(const std::string& mode, double voxel_mm) {
   made->allowed = workshop::allowed_in(record::mode_of(mode).value_or(record::Mode::free),
                                        made->lesson.feedback, true);
   made->voxel = 1e-3 * voxel_mm;
-  const phantom::Phantom from = web::phantom_of_page(made->voxel);
   NoProgress quiet;
-  auto bone = phantom::bone_from_formula(phantom::box_grid(from.lo, from.hi, made->voxel),
-                                         from.tissues, from.formula, 0, 1, quiet);
-  if (!bone) return refused(error("there is not enough memory"));
+  auto bone = phantom::phantom(work->phantom, voxel_mm, quiet, 0, 1);
+  if (!bone) return refused(bone.error());
   auto spared = workshop::SparedDistance::make(
       **bone, workshop::to_spare((*bone)->tissues(), work->spare), quiet);
   if (!spared) return refused(spared.error());
@@ -146,9 +144,9 @@ std::string stop(Watch& w, const std::optional<workshop::SparedDistance::Near>& 
 extern "C" {
 
 EMSCRIPTEN_KEEPALIVE const char* watch_why() { return failure.c_str(); }
-EMSCRIPTEN_KEEPALIVE int watch_open(const char* mode, double voxel_mm) {
+EMSCRIPTEN_KEEPALIVE int watch_open(const char* name, const char* mode, double voxel_mm) {
   watch.reset();
-  return open_watch(mode, voxel_mm) ? 1 : 0;
+  return open_watch(name, mode, voxel_mm) ? 1 : 0;
 }
 EMSCRIPTEN_KEEPALIVE void watch_speak(const char* language) { words::speak(language); }
 

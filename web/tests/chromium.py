@@ -12,7 +12,9 @@ import functools
 import http.server
 import json
 import os
+import pathlib
 import shutil
+import signal
 import struct
 import subprocess
 import tempfile
@@ -26,14 +28,25 @@ FLAGS = """--headless --no-sandbox --use-gl=angle --use-angle=swiftshader --enab
 
 
 class Site:
-    """A plain static server on 127.0.0.1, without any special headers but those that are given."""
+    """A plain static server on 127.0.0.1, without any special headers but those that are given. instead: {path: bytes} of files that
+    are not as they lie in the folder."""
 
-    def __init__(self, folder, headers=None):
+    def __init__(self, folder, headers=None, instead=None):
         self.asked = []  # paths, in order
 
         class Handler(http.server.SimpleHTTPRequestHandler):
             extensions_map = http.server.SimpleHTTPRequestHandler.extensions_map | {
                 ".mjs": "text/javascript", ".js": "text/javascript", ".wasm": "application/wasm"}
+
+            def do_GET(handler):
+                other = (instead or {}).get(handler.path.split("?")[0])
+                if other is None:
+                    return super().do_GET()
+                handler.send_response(200)
+                handler.send_header("Content-Type", handler.guess_type(handler.path))
+                handler.send_header("Content-Length", str(len(other)))
+                handler.end_headers()
+                handler.wfile.write(other)
 
             def log_message(handler, *_):
                 self.asked.append(handler.path)
@@ -56,9 +69,11 @@ class Site:
 
 
 class Chromium:
-    def __init__(self, width, height, flags=()):
+    def __init__(self, width, height, flags=(), folder=None):
+        """folder: the profile of another one, which was killed."""
         self.width, self.height = width, height
-        self.folder = tempfile.mkdtemp(prefix="burr_chromium_")
+        self.fresh = False  # each page that is opened finds nothing that one before it has kept
+        self.folder = folder or tempfile.mkdtemp(prefix="burr_chromium_")
         to_read, self.to = map(_high, os.pipe())
         self.back, from_write = map(_high, os.pipe())
         program = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -114,9 +129,33 @@ class Chromium:
             raise RuntimeError(f"{method}: {answer['error']['message']}")
         return answer["result"]
 
-    def open(self, url, first=None):
-        """first: a script that runs before those of the page."""
-        return Page(self, url, first)
+    def open(self, url, first=None, before=None):
+        """first: a script that runs before those of the page; before(page): is called before the page is asked for."""
+        return Page(self, url, first, before)
+
+    def kill(self):
+        """As a power cut does it, to this program; its profile stays until the end."""
+        processes = _below(self.process.pid)
+        for one in processes:
+            try:
+                os.kill(one, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        self.process.wait()
+        end = time.monotonic() + 60  # the others hold files of the profile until they are gone
+        while any(_runs(one) for one in processes) and time.monotonic() < end:
+            time.sleep(0.1)
+        for name in pathlib.Path(self.folder).glob("Singleton*"):
+            name.unlink(missing_ok=True)
+
+    def sleep(self, seconds):
+        """As a lid that is closed does it: all of it stands still, and goes on."""
+        processes = _below(self.process.pid)
+        for what in (signal.SIGSTOP, signal.SIGCONT):
+            for one in processes:
+                os.kill(one, what)
+            if what == signal.SIGSTOP:
+                time.sleep(seconds)
 
     def keep_downloads(self, folder):
         self.send("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
@@ -135,7 +174,7 @@ class Chromium:
 
 
 class Page:
-    def __init__(self, browser, url, first=None):
+    def __init__(self, browser, url, first=None, before=None):
         self.browser = browser
         self.troubles = []  # what the console says as a warning or an error, and what was thrown
         self.requests = []  # (seconds since the start, address)
@@ -156,6 +195,10 @@ class Page:
             self.send("Page.addScriptToEvaluateOnNewDocument", {"source": first})
         self.send("Emulation.setDeviceMetricsOverride", {"width": browser.width, "height": browser.height,
                                                          "deviceScaleFactor": 1, "mobile": False})
+        if before:
+            before(self)
+        if browser.fresh:
+            self.send("Storage.clearDataForOrigin", {"origin": "/".join(url.split("/")[:3]), "storageTypes": "all"})
         self.send("Page.navigate", {"url": url})
 
     def _hear(self, message):
@@ -276,6 +319,22 @@ class Picture:
                 if max(abs(a[i] - b[i]), abs(a[i + 1] - b[i + 1]), abs(a[i + 2] - b[i + 2])) > more_than:
                     found.append((x, y))
         return found
+
+
+def _below(process):
+    """A process and all that it has started."""
+    found = [process]
+    for one in found:
+        for task in pathlib.Path(f"/proc/{one}/task").glob("*/children"):
+            found += [int(child) for child in task.read_text().split()]
+    return found
+
+
+def _runs(process):
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0] not in "ZX"
+    except OSError:
+        return False
 
 
 def _high(descriptor):

@@ -48,7 +48,7 @@ def check(good, text):
 
 def at_rest(page):
     """Waits until the picture is complete, and no sentence stands over it."""
-    page.run("document.getElementById('picture').focus()")
+    page.run("document.getElementById('card_close').click(); document.getElementById('picture').focus()")
     page.run(PARK)
     time.sleep(2)
     page.wait("document.getElementById('say').textContent === ''", WAIT)
@@ -118,8 +118,9 @@ def recording(page, downloads, least_ticks=1000):
 
 
 def finer(page):
-    """The same bone with finer voxels: the worker begins anew."""
+    """The same bone with finer voxels: the worker begins anew, after a question."""
     page.run("document.getElementById('finer').click()")
+    page.run("document.getElementById('anew_yes').click()")
     page.wait("burr.voxel === 0.25 && burr.ready && burr.state.ticks > 100", WAIT)
     page.run("document.getElementById('larger').click()")
     page.wait("burr.figures.size === 5.5", WAIT)
@@ -360,6 +361,7 @@ def own_scan(browser, site):
         check(iso == 300 and page.run("burr.own.plan.size[2]") == 25, "level and region are the user's")
         page.run("document.querySelector('#own_scan form').requestSubmit()")
         page.wait("!burr.ready", WAIT)
+        page.run("document.getElementById('card_close').click()")
         page.wait("burr.ready && burr.state.ticks > 200 && burr.refined()", WAIT)
         check(page.run("!document.getElementById('own_scan').open"), "bone is made of it, and the dialog closes")
         page.run(POINTER + "(3000)")
@@ -433,6 +435,7 @@ def real(page, opened):
 def pages_bone_again(page):
     """Another mode brings back the page's own bone, with its steps."""
     page.run("(() => { const mode = document.getElementById('mode'); mode.value = 'learn'; mode.dispatchEvent(new Event('change')); })()")
+    page.run("document.getElementById('anew_yes').click()")
     page.wait("!burr.ready", WAIT)
     page.wait("burr.ready && burr.course.steps !== null && burr.state.ticks > 100", WAIT)
     check(page.run("burr.voxel === 0.5 && !document.getElementById('course').hidden"), "the page's own bone is back, with its steps")
@@ -480,10 +483,12 @@ def main():
     only = os.environ.get("BURR_PAGE_TEST")  # one of the functions below, for whoever works on it
     if only:
         with Site(SITE) as site, Chromium(960, 540) as browser:
+            browser.fresh = True
             {"replay": lambda *where: replay(*where, None), "own_scan": own_scan, "languages": languages}[only](browser, site)
         sys.exit("\n".join(bad))
     with tempfile.TemporaryDirectory() as downloads, Site(SITE) as site, Chromium(960, 540) as browser:
         browser.keep_downloads(downloads)
+        browser.fresh = True
         page = browser.open(site.url + "mill/")
         loaded = mill(page)
         undo_and_reset(page)

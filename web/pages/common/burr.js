@@ -30,7 +30,7 @@ export async function start(compiled, make = make_page, codecs = {}) {
   });
   const calls = {module};
   for (const name of Object.keys(module))
-    if (/^_(core|view|score|watch)_/.test(name)) calls[name.slice(1)] = module[name];
+    if (/^_(core|view|score|watch|redo)_/.test(name)) calls[name.slice(1)] = module[name];
   calls.text = (pointer) => module.UTF8ToString(pointer);
   // memory may grow at each call, so views of it are made anew
   calls.bytes = (pointer, length) => new Uint8Array(module.HEAPU8.buffer, pointer, length);

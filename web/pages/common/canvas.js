@@ -12,3 +12,6 @@ export function fit(canvas) {
   canvas.height = high;
   return true;
 }
+
+// Whether the browser has taken the picture away. A picture can fail before the event that says so.
+export const is_lost = (canvas) => canvas.getContext('webgl2')?.isContextLost() ?? true;

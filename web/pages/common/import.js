@@ -10,8 +10,8 @@ const kMemory = 1024, kLeastMemory = 64, kMostMemory = 1024;  // [MiB]
 let worker = null, dialog = null, made = null;
 let state = {};  // what the tests and the curious read
 
-// page_state: what becomes of the scan is written there. on_bone({blob, plan}): the bone is there.
-export function open_scan(page_state, on_bone) {
+// page_state: what becomes of the scan is written there. on_bone({blob, plan}): the bone is there. files: that are read at once.
+export function open_scan(page_state, on_bone, files = []) {
   made = on_bone;
   state = page_state;
   dialog ?? build();
@@ -19,6 +19,7 @@ export function open_scan(page_state, on_bone) {
   for (const one of dialog.querySelectorAll('[data-own]')) one.textContent = word(one.dataset.own);
   dialog.querySelector('#own_memory').value = kMemory;
   dialog.showModal();
+  if (files.length > 0) read(files);
 }
 
 function close() {
@@ -47,7 +48,7 @@ function build() {
     – <input id="own_${axis}1" type="number" min="0" step="1" aria-label="${axis}"></span>`;
   dialog.innerHTML = `<h2 data-own="own_scan"></h2>
     <p data-own="own_tip"></p>
-    <input id="own_files" type="file" multiple>
+    <label><span data-own="files_of_scan"></span> <input id="own_files" type="file" multiple></label>
     <p id="own_said" role="status"></p>
     <form hidden>
       ${box('own_level', 'own_level')}
@@ -105,7 +106,7 @@ function recipe() {
 
 function hear(data) {
   if (data.kind === 'refused') {
-    state.refused = data.text ?? word(data.why, ...data.parts);
+    state.refused = data.text ? in_words(data.text) : word(data.why, ...data.parts);
     tell(state.refused);
     if (data.why) close_worker();  // it has ended
     return;
@@ -136,6 +137,12 @@ function show(plan, first) {
   at('#own_facts').textContent = word('own_facts', plan.format, plan.scan.join(' × '),
       plan.spacing_mm.map((one) => number(one, 2)).join(' × '), plan.size.join(' × '), number(plan.voxel_mm, 2),
       number(plan.memory_mb, 0));
-  tell(plan.notices.join(' '));
+  tell(plan.notices.map(in_words).join(' '));
   at('form').hidden = false;
+}
+
+// A sentence of the library names its fields in backticks; here they are what stands in this dialog.
+const kFields = {iso: 'own_level', level: 'own_level', region: 'own_region', memory_mb: 'own_memory', voxel_mm: 'own_memory', series: 'files_of_scan'};
+function in_words(text) {
+  return text.replace(/`([^`]*)`/g, (_, name) => (name in kFields ? `“${word(kFields[name])}”` : name.replaceAll('_', ' ').replace('::', ' ')));
 }

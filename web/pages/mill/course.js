@@ -2,35 +2,26 @@
 // marks, what burr found, and the report. What is said and decided comes from score_worker.js, which runs the window's code.
 import {bound_worker} from '../common/bound_worker.js';
 import * as words from '../common/words.js';
+import {ask, button, make} from './ask.js';
 
 const {word} = words;
 const kRest = 3000;  // from the end of a measurement to the next [ms], as in the window
 
 const $ = (id) => document.getElementById(id);
 
-// make('p', {class: 'dim'}, 'text', child, ...)
-function make(tag, with_what = {}, ...inside) {
-  const one = document.createElement(tag);
-  for (const [name, value] of Object.entries(with_what)) {
-    if (name === 'click') one.addEventListener('click', value);
-    else if (typeof value === 'boolean') one.toggleAttribute(name, value);
-    else one.setAttribute(name, value);
-  }
-  one.append(...inside.filter((part) => part !== null && part !== ''));
-  return one;
-}
-const button = (text, click, more = {}) => make('button', {type: 'button', click, ...more}, text);
-const kSigns = {good: '✓ ', bad: '✗ ', open: '○ ', none: '– '};
-const mark_of = ({word: text, tone}) => make('span', {class: tone}, kSigns[tone] + text);
-
 export class Course {
   // host: tell(message for the worker that ticks), say(text, ms), figures(), picture(), keep(bytes, name, type), changed(),
-  // opened(compiled), step(id), light(what is lit or null)
+  // opened(compiled), step(id), light(what is lit or null), look_at(place, its name),
+  // kept() the id of the recording in the browser's storage, or null
   constructor(host) {
     this.host = host;
     this.worker = null;
     this.loaded = false;  // the worker is there, and asks for nothing any more
     this.texts = {};      // of the window, by key
+    this.cases = [];      // that there are: {name, title, voxel_mm}
+    this.open = false;    // the sheet of the steps, where the screen is narrow
+    this.pages = null;    // review.js, when it is loaded
+    this.asked = null;    // who waits for a case or a recording
     this.clear();
   }
 
@@ -48,16 +39,29 @@ export class Course {
     clearTimeout(this.timer);
   }
 
-  // Of a bone that is ready, before its first cut.
-  begin(voxel, mode, work) {
+  // Of a bone that is ready, before its first cut; or of a session that came back, with what had happened in it.
+  begin(name, voxel, mode, work, events = null) {
     this.work = work;
     this.mode = mode;
-    if (this.worker === null) {
-      this.worker = bound_worker(new URL('score_worker.js', import.meta.url));
-      this.worker.onmessage = ({data}) => this.hear(data);
-      this.worker.onerror = (what) => this.fail(what.message || 'worker');
-    }
-    this.post({kind: 'open', voxel, mode, language: words.present()});
+    this.begin_worker();
+    this.post({kind: 'open', name, voxel, mode, language: words.present(), came_back: events});
+  }
+  begin_worker() {
+    if (this.worker !== null) return;
+    this.worker = bound_worker(new URL('score_worker.js', import.meta.url));
+    this.worker.onmessage = ({data}) => this.hear(data);
+    this.worker.onerror = (what) => this.fail(what.message || 'worker');
+  }
+  // What is known of a case, and its bone.
+  ask_case(name, voxel = 0) { return this.ask_worker({kind: 'case', name, voxel}); }
+  // A recording, to be computed again: what it says of itself, its bone if that is wanted, and the port from which its ticks come.
+  ask_redo(file, with_bone) { return this.ask_worker({kind: 'redo', file, with_bone}); }
+  ask_worker(message) {
+    this.begin_worker();
+    return new Promise((go, stop) => {
+      this.asked = {go, stop};
+      this.worker.postMessage({...message, language: words.present()});
+    });
   }
   // Of a bone that has no case: no steps, no score. What still comes of the bone before is left.
   leave(work) {
@@ -78,6 +82,7 @@ export class Course {
   fail(text) {
     this.trouble = text;
     this.loaded = true;
+    this.asked?.stop(new Error(text));
     console.error(text);
     this.host.say(word('no_steps', text), 12000);
     if (this.page) this.show_review();
@@ -85,9 +90,14 @@ export class Course {
   }
 
   hear(data) {
+    if (data.kind === 'asked') {
+      const {go, stop} = this.asked;
+      return data.why ? stop(new Error(data.why)) : go(data);
+    }
     if (data.kind === 'broken') return this.fail(data.text);
     if (data.work !== this.work) return;
     if (data.words) this.texts = data.words;
+    if (data.cases) this.cases = data.cases;
     if (data.questions) this.questions = data.questions;
     if (data.steps) this.steps = data.steps;
     if (data.events?.length > 0 && this.lit) this.put_out();  // it was the target of another step
@@ -190,6 +200,7 @@ export class Course {
     panel.hidden = !this.shown || !this.offers_steps() || this.page !== null;
     if (!panel.hidden) {
       const held = [...panel.querySelectorAll('button')].indexOf(document.activeElement);
+      panel.classList.toggle('open', this.open);
       panel.replaceChildren(...this.panel());
       if (held >= 0) ([...panel.querySelectorAll('button')][held] ?? $('picture')).focus();
     }
@@ -203,30 +214,30 @@ export class Course {
       now.tool && make('p', {class: 'small'}, now.tool), now.spare && make('p', {class: 'warn'}, now.spare),
       button(this.text('steps_done', 'J'), () => this.step_done(), {id: 'step_done'}),
       this.lights() && button(this.text(this.lit ? 'steps_unlight' : 'steps_light', 'A'), () => this.toggle_light(), {id: 'step_light'}),
-    ] : [make('p', {class: 'good'}, this.text('steps_all_done'))];
+    ] : [make('p', {class: 'good title'}, this.text('steps_all_done'))];
+    const fold = button(this.open ? '▾' : '▴', () => {
+      this.open = !this.open;
+      this.show();
+    }, {id: 'course_fold', 'aria-expanded': String(this.open), 'aria-controls': 'course', 'aria-label': word(this.open ? 'fold_close' : 'fold_open')});
     const list = make('ol', {}, ...rows.map((row, n) => make('li', {}, button(
         (row.done ? '✓ ' : row.current ? '▸ ' : '○ ') + row.title,
         () => { if (!row.current) this.post({kind: 'choose', row: n}); },
         {title: row.current ? '' : this.text(row.done ? 'steps_reopen' : 'steps_choose'), ...(row.current && {'aria-current': 'step'})}))));
-    return [...about.filter(Boolean), list];
+    return [...about.filter(Boolean), list, fold];
   }
 
   // ---- the end
 
-  can_finish() { return this.loaded && this.steps !== null && this.page === null; }
-  covers() { return this.page !== null || $('ask').open; }
+  can_finish() { return this.loaded && this.pages !== null && this.steps !== null && this.page === null; }
+  covers() { return (this.page !== null && !$('review').hidden) || $('ask').open; }
 
   ask_done() {
     if (!this.can_finish() || $('ask').open) return;
     if (!(this.host.figures().removed > 0)) return this.host.say(this.text('done_nothing'), 5000);
-    const ask = $('ask'), close = () => ask.close();
-    ask.replaceChildren(
-        make('h2', {id: 'ask_title'}, this.text('done_title')), make('p', {}, this.text('done_told')),
-        this.steps.open > 0 ? make('p', {class: 'warn'}, this.text('done_open_steps', this.steps.open)) : '',
-        make('nav', {}, button(this.text('done_yes'), () => { close(); this.finish(); }, {id: 'done_yes'}),
-             button(this.text('done_no'), close, {id: 'done_no'})));
-    ask.setAttribute('aria-labelledby', 'ask_title');
-    ask.showModal();
+    ask(this.text('done_title'), [
+      make('p', {}, this.text('done_told')),
+      this.steps.open > 0 && make('p', {class: 'warn'}, this.text('done_open_steps', this.steps.open)),
+    ], [['done_yes', this.text('done_yes'), () => this.finish()], ['done_no', this.text('done_no')]]);
   }
 
   // The work is done: the picture is taken, then the user marks his own work.
@@ -257,6 +268,14 @@ export class Course {
     this.show();
     return true;
   }
+  show_again() {
+    $('review').hidden = false;
+    this.show_review();
+  }
+  look_at(item) {
+    $('review').hidden = true;
+    this.host.look_at(item.place, item.text);
+  }
   save() {
     if (this.page === null) return false;
     this.file?.arrayBuffer().then((bytes) => this.host.keep(new Uint8Array(bytes), 'burr.mcap', 'application/octet-stream'));
@@ -273,82 +292,10 @@ export class Course {
     const was = review.dataset.page;
     review.hidden = false;
     review.dataset.page = this.page;
-    review.replaceChildren(...(this.page === 'own' ? this.own() : this.result()));
+    review.replaceChildren(...(this.page === 'own' ? this.pages.own(this) : this.pages.result(this)));
+    const title = review.querySelector('h1').textContent;
+    for (const one of [review, review.querySelector('nav')]) one.setAttribute('aria-label', title);
     if (was === this.page) review.querySelector('.body').scrollTop = top;
     else review.querySelector('button.first')?.focus();
-  }
-
-  // As the window asks (review/self_marks_page.cpp).
-  own() {
-    const answers = [['met', 'report_verdict_met'], ['unmet', 'report_verdict_unmet'], ['unknown', 'report_self_unknown']];
-    const items = this.questions.flatMap((part) => part.items);
-    const count = make('span', {class: 'dim'}, this.text('self_count', this.marks.size, items.length));
-    const rows = new Map();
-    const press = () => {
-      for (const [id, buttons] of rows)
-        for (const [value, one] of buttons) one.setAttribute('aria-pressed', String(this.marks.get(id) === value));
-      count.textContent = this.text('self_count', this.marks.size, items.length);
-    };
-    const row = (item) => {
-      const buttons = answers.map(([value, key]) => [value, button(this.text(key), () => {
-        if (this.marks.get(item.id) === value) this.marks.delete(item.id);
-        else this.marks.set(item.id, value);
-        press();
-      }, {'data-item': item.id, 'data-value': value})]);
-      rows.set(item.id, buttons);
-      return make('div', {class: 'choice', role: 'group', 'aria-label': item.text}, ...buttons.map(([, one]) => one),
-                  make('span', {}, item.text), item.gate ? make('span', {class: 'warn'}, this.text('report_gate')) : '');
-    };
-    const parts = this.questions.map((part) => make('section', {}, make('h2', {}, part.title), make('div', {class: 'choice'},
-        ...answers.slice(0, 2).map(([value, key]) => button(this.text(key), () => {
-          for (const item of part.items) if (!this.marks.has(item.id)) this.marks.set(item.id, value);
-          press();
-        })), make('span', {class: 'dim'}, this.text('self_rest'))), ...part.items.map(row)));
-    press();
-    return [
-      make('h1', {}, this.text('self_title')), make('p', {class: 'dim'}, this.text('self_why')),
-      make('div', {class: 'body single', tabindex: '0'}, ...parts),
-      make('nav', {}, button(this.text('self_finish'), () => this.own_finished(true), {id: 'self_finish', class: 'first'}),
-           button(this.text('self_skip'), () => this.own_finished(false), {id: 'self_skip'}), count),
-    ];
-  }
-
-  // As the window shows it (review/review_page.cpp).
-  result() {
-    const reason = this.page === 'exam' ? this.text('review_exam') : this.trouble;
-    const inside = this.page === 'waits' ? [make('p', {}, this.text('review_waits')), make('progress')]
-                 : reason ? [make('p', {}, reason)]
-                 : this.found_parts(this.found.report);
-    const single = this.page !== 'found' || reason;
-    return [
-      make('h1', {}, this.text('review_title')),
-      make('div', {class: single ? 'body single' : 'body', tabindex: '0'}, ...inside),
-      make('nav', {},
-           this.found ? button(word('save_report'), () => this.save_report(), {id: 'save_report', class: 'first', title: word('save_report_tip')}) : '',
-           button(word('save'), () => this.save(), {id: 'save_done', disabled: this.file === null}),
-           button(this.text('review_again'), () => $('mode').dispatchEvent(new Event('change')), {id: 'again'})),
-    ];
-  }
-  found_parts(report) {
-    const gates = report.gates.length === 0 ? [] : [
-      make('h2', {}, this.text('report_safety')), make('p', {}, report.held),
-      ...report.gates.filter((gate) => gate.mark.tone !== 'good').map((gate) => make('p', {}, gate.text, ' ', mark_of(gate.mark), gate.when && `, ${gate.when}`)),
-    ];
-    const totals = report.parts.flatMap((part) => [
-      make('p', {class: 'dim'}, part.title), make('p', {}, make('b', {}, part.met)), make('p', {class: 'warn'}, part.note)]);
-    const next = report.next.length === 0 ? [make('p', {}, report.nothing_next)]
-               : [make('ol', {}, ...report.next.map((one) => make('li', {}, one.say, make('div', {class: 'dim'}, one.why))))];
-    const left = make('div', {}, make('p', {class: 'warn'}, report.unfinished), ...gates, make('h2', {}, this.text('report_totals')), ...totals,
-                      make('h2', {}, this.text('report_self')), make('p', {}, report.self), make('h2', {}, this.text('report_next')), ...next);
-    const head = make('tr', {}, report.has_self ? make('th', {}, report.you) : '', make('th', {}, report.machine), make('th', {}, this.text('report_item')));
-    const rows = report.parts.flatMap((part) => [
-      make('tr', {}, make('th', {colspan: '3'}, part.title)),
-      ...part.items.map((item) => make('tr', {'data-item': item.id},
-          report.has_self ? make('td', {class: 'mark'}, mark_of(item.self)) : '', make('td', {class: 'mark'}, mark_of(item.machine)),
-          make('td', {}, item.text, item.gate ? ` (${this.text('report_gate')})` : '',
-               make('div', {class: 'dim'}, item.figures, item.default && ` (${item.default})`),
-               ...item.remarks.map((one) => make('div', {class: 'dim'}, one))))),
-    ]);
-    return [left, make('table', {}, head, ...rows)];
   }
 }

@@ -16,17 +16,22 @@ export class Watch {
     this.allowed = null;
   }
   // compiled: burr_score.
-  open(compiled, voxel, mode, work) {
+  open(compiled, name, voxel, mode, work) {
     this.work = work;
     if (this.worker === null) {
       this.worker = bound_worker(new URL('watch_worker.js', import.meta.url));
       this.worker.onmessage = ({data}) => this.hear(data);
       this.worker.onerror = (what) => this.fail(what.message || 'worker');
-      const {port1, port2} = new MessageChannel();
-      this.worker.postMessage({kind: 'rows', port: port1}, [port1]);
-      this.host.rows(port2);
+      this.renew();
     }
-    this.post({kind: 'open', compiled, voxel, mode, language: words.present()});
+    this.post({kind: 'open', compiled, name, voxel, mode, language: words.present()});
+  }
+  // Rows come from another worker that ticks.
+  renew() {
+    if (this.worker === null) return;
+    const {port1, port2} = new MessageChannel();
+    this.worker.postMessage({kind: 'rows', port: port1}, [port1]);
+    this.host.rows(port2);
   }
   close() {
     this.work = null;

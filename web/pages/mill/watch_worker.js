@@ -2,7 +2,7 @@
 // which is compiled already, so that no measurement of a step delays a warning. The rows come straight from the worker that ticks,
 // each when the one before was looked at: no slow picture delays them.
 //
-//     page -> worker   rows {port}, open {compiled, voxel, mode, language, work}, step {id}, language {language}, heard {on}, next;
+//     page -> worker   rows {port}, open {compiled, name, voxel, mode, language, work}, step {id}, language {language}, heard {on}, next;
 //                      for tests: at {place}, and go_on
 //     worker -> page   opened {allowed}, allowed {allowed}, looked {found}, broken {text}
 //
@@ -39,7 +39,7 @@ async function take(data) {
     events = [];
     burr ??= await start(data.compiled, make);
     burr.with_texts([data.language], burr.watch_speak);
-    if (!burr.with_texts([data.mode], (mode) => burr.watch_open(mode, data.voxel))) throw new Error(burr.text(burr.watch_why()));
+    if (!burr.with_texts([data.name, data.mode], (name, mode) => burr.watch_open(name, mode, data.voxel))) throw new Error(burr.text(burr.watch_why()));
     ready = true;
     tell({kind: 'opened', allowed: json(burr.watch_allowed())});
   } else if (data.work !== work) {

@@ -2,22 +2,25 @@
 // nowhere else.
 import {bound_worker} from '../common/bound_worker.js';
 import {compile, start, trouble} from '../common/burr.js';
-import {fit, wanted_size} from '../common/canvas.js';
+import {fit, is_lost, wanted_size} from '../common/canvas.js';
 import {begin_bone, show} from '../common/skin.js';
+import {kept_sessions} from '../common/store.js';
 import * as words from '../common/words.js';
 
 const {word, number} = words;
 const kTurn = 0.006;  // of the view, per pixel of the pointer  [rad]
+const kRing = 1.2e-3, kRound = 20e-3;  // around a place of evidence: the ring's radius, the height of the picture  [m]
 
 const $ = (id) => document.getElementById(id);
-const canvas = $('picture');
+let canvas = $('picture');
+let lost = false;   // the browser has taken the picture away; it is being made anew
 
 // What the tests and the curious read.
 const burr = window.burr = {
   pictures: 0,
   ready: false,
   figures: {},
-  refined: () => view.view_refined() === 1,
+  refined: () => !lost && view.view_refined() === 1,
   hash: () => worker.postMessage({kind: 'hash', work}),  // gives burr.bone
   place: (x, y, z) => [...view.numbers(view.view_place(x, y, z, 0), 2)],  // of a point [m], in the picture [pixel]
   held: (tool) => {  // draws this tool of the recording; -1: the round burr
@@ -31,6 +34,8 @@ let seconds = 0, wanted = null, asked = false, playing = 0;  // playing: when it
 let dirty = true, seen = false, before = 0, drew = false;
 let work = 0;       // number of the file
 let moment = null;  // the newest from the worker
+let place = null;   // of evidence [m]: the view turns to it, and a ring marks it
+let turns = false;  // it has not turned yet
 let come = null;    // to call when the worker is there
 const waiting = [];
 
@@ -57,6 +62,21 @@ async function main() {
   listen();
   burr.open = true;
   requestAnimationFrame(draw);
+  await open_link(new URLSearchParams(location.search));
+}
+
+// ?kept=ID&at=SECONDS&place=X,Y,Z: a recording that the page "mill" has kept in this browser, at a moment, turned to a place [m].
+let first = 0;  // the moment to begin with [s]
+async function open_link(asked) {
+  const id = asked.get('kept');
+  if (id === null) return;
+  const found = (await kept_sessions()).find((one) => one.id === id);
+  if (!found) return say(word('not_kept_here'));
+  first = Number(asked.get('at')) || 0;
+  const at = (asked.get('place') ?? '').split(',').map(Number);
+  place = at.length === 3 && at.every(Number.isFinite) ? at : null;
+  turns = place !== null;
+  open(new File([await found.file()], 'burr.mcap'), true);
 }
 
 // The page stops, and its last sentence stays.
@@ -71,7 +91,11 @@ function say(text) {
   $('say').textContent = text;
 }
 
-function open(file) {
+function open(file, linked = false) {
+  if (!linked) {
+    first = 0;
+    place = null;
+  }
   burr.ready = seen = asked = false;
   moment = null;
   burr.shown = undefined;
@@ -104,7 +128,7 @@ function hear(data) {
       burr.ready = true;
       $('play').disabled = $('time').disabled = false;
       say('');
-      seek(0);
+      seek(first);
       break;
     case 'moment':
       waiting.push(...data.patches, {row: data.row}, {held: data.held});
@@ -146,10 +170,16 @@ function draw(now) {
     const fresh = waiting.length > 0;
     for (const one of waiting) show(view, one);
     waiting.length = 0;
+    if (lost) return;
     if (fresh && !burr.ready) view.view_anew();
     if (fresh && !seen && burr.ready) {
       seen = true;
       view.view_whole();
+    }
+    if (turns && seen && !asked && wanted === null && moment) {  // the bone of that moment is there
+      turns = false;
+      view.view_turn_to(...place, kRound);
+      dirty = true;
     }
     if (fit(canvas)) dirty = true;
     const took = drew ? now - before : 0;  // of the picture before, if this one follows at once; a rest is no work
@@ -157,8 +187,12 @@ function draw(now) {
     drew = dirty || fresh || view.view_refined() === 0;
     if (!drew) return;
     dirty = false;
-    if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) throw new Error(view.text(view.view_why()));
+    if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) {
+      if (is_lost(canvas)) return lose();
+      throw new Error(view.text(view.view_why()));
+    }
     ++burr.pictures;
+    draw_ring();
     if (fresh) write();
   } catch (trouble) {
     fail(trouble);
@@ -175,6 +209,17 @@ function write() {
   $('rpm').textContent = number(rpm, 0);
   $('now').textContent = `${number(burr.shown ?? 0, 1)} / ${number(seconds, 1)} s`;
   if (playing !== 0 && moment) $('time').value = burr.shown;
+}
+
+function draw_ring() {
+  const ring = $('light').firstElementChild;
+  if (place !== null) {
+    const [x, y, r] = view.numbers(view.view_place(...place, kRing), 3), scale = canvas.clientHeight / Math.max(1, canvas.height);
+    for (const [name, value] of [['cx', scale * x], ['cy', scale * y], ['r', Math.max(8, scale * r)]]) ring.setAttribute(name, value);
+    ring.setAttribute('visibility', r < 0 ? 'hidden' : 'visible');
+  } else {
+    ring.setAttribute('visibility', 'hidden');
+  }
 }
 
 function stop() {
@@ -201,9 +246,16 @@ function listen() {
     $('play').textContent = word('hold');
   });
   $('home').addEventListener('click', () => {
+    if (lost) return;
     view.view_whole();
     dirty = true;
   });
+  attach();
+}
+
+// The canvas that the picture is on; after a lost picture there is another one.
+function attach() {
+  const mine = canvas;
   let last = null;
   canvas.addEventListener('pointerdown', (event) => {
     canvas.setPointerCapture(event.pointerId);
@@ -224,5 +276,27 @@ function listen() {
     view.view_zoom(Math.exp(-0.0015 * event.deltaY * (event.deltaMode === 1 ? 33 : 1)));
     dirty = true;
   }, {passive: false});
-  canvas.addEventListener('webglcontextlost', () => fail(new Error('WebGL')));
+  canvas.addEventListener('webglcontextlost', (event) => {
+    event.preventDefault();
+    if (!lost && mine === canvas) lose();
+  });
+}
+function lose() {
+  lost = true;
+  view.view_lost();
+  say(word('picture_lost'));
+  again(300);
+}
+function again(wait) {
+  setTimeout(() => {
+    const fresh = canvas.cloneNode(false);
+    canvas.replaceWith(fresh);
+    canvas = fresh;
+    if (view.view_open(...wanted_size(canvas)) === 0) return again(Math.min(5000, 2 * wait));
+    lost = false;
+    dirty = true;
+    attach();
+    view.view_anew();
+    say('');
+  }, wait);
 }

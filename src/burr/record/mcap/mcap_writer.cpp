@@ -388,6 +388,16 @@ Status McapWriter::read_back(BytesOut& chunk_indexes) {
 
 Status McapWriter::finish() {
   if (Status closed = close_chunk(); !closed.ok()) return closed;
+  if (Status written = append_end(); !written.ok()) return written;
+  if (Status synced = sync(); !synced.ok()) return synced;
+  const int file = file_;
+  file_ = -1;
+  if (::close(file) != 0) return trouble(shown_, "be closed");
+  return fine();
+}
+
+// What makes the file complete: the summary and the footer.
+Status McapWriter::append_end() {
   BytesOut chunk_indexes;
   if (Status read = read_back(chunk_indexes); !read.ok()) return read;
   BytesOut end;
@@ -473,12 +483,7 @@ Status McapWriter::end_file(BytesOut& summary, std::uint64_t summary_start,
   summary.put(offsets_start);
   summary.put(crc32(summary.span()));
   summary.raw(mcap::kMagic);
-  if (Status written = append(summary.span()); !written.ok()) return written;
-  if (Status synced = sync(); !synced.ok()) return synced;
-  const int file = file_;
-  file_ = -1;
-  if (::close(file) != 0) return trouble(shown_, "be closed");
-  return fine();
+  return append(summary.span());
 }
 
 }  // namespace burr::record

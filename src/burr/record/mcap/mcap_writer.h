@@ -2,7 +2,7 @@
 // chunk at a time, so that a killed process leaves a file that is good up to its last chunk.
 //
 //     writer.open(path) -> schema, channel, metadata, attachment
-//                       -> [ message, message ... close_chunk ]*  -> finish
+//                       -> [ message, message ... close_chunk | copy_to ]*  -> finish
 //
 // Thread: one at a time; only sync() may be called from another. Memory: one chunk, however long
 // the recording; for the summary, the index of all chunks is read back from the file at the end.
@@ -75,6 +75,9 @@ class McapWriter {
   [[nodiscard]] Status sync();
   // Error: somebody has removed the file; what is written now belongs to no folder.
   [[nodiscard]] Status still_there() const;
+  // A complete file of everything up to the last chunk, beside this one, which goes on as if nothing
+  // had happened. `shown`: its name in errors. It is overwritten, and removed again if it fails.
+  [[nodiscard]] Status copy_to(const std::string& path, const std::string& shown);
   // Summary, footer, sync, close. A disk from which nothing can be read back gets no summary.
   [[nodiscard]] Status finish();
 
@@ -90,6 +93,8 @@ class McapWriter {
   [[nodiscard]] Status read_back(BytesOut& chunk_indexes);
   [[nodiscard]] Status end_file(BytesOut& summary, std::uint64_t summary_start,
                                 std::uint64_t offsets_start);
+  [[nodiscard]] Status append_end();
+  [[nodiscard]] Status copy_bytes_to(int file) const;
 
   std::string shown_;
   int file_ = -1;
