@@ -297,7 +297,7 @@ def browser_killed(site, folder):
         page.wait("burr.state.ticks > 5000 && burr.figures.removed > 1", WAIT)
         ticks, removed = page.run("[burr.state.ticks, burr.figures.removed]")
         browser.kill()
-        with Chromium(960, 540, browser.folder) as again:
+        with Chromium(960, 540, folder=browser.folder) as again:
             again.keep_downloads(folder)
             page = opened(again, site)
             offered(page, "killed browser")

@@ -94,14 +94,27 @@ def steps(page, name, width, height, source):
         check(panel[0] + panel[2] < left + 0.5 * wide, f"{name}: it leaves the middle of the picture free")
 
 
+# The longest figures; then those that do not fit, before the page can write others.
+LONGEST = """((code, left_out) => {
+  const number = (value, digits) => value.toLocaleString(code, {minimumFractionDigits: digits, maximumFractionDigits: digits});
+  const texts = {force: number(33.3, 1), removed: number(12345.6, 1), loop_title: left_out, loop: number(1234567, 0), near_mm: number(-12.3, 1), near_sign: '!!',
+    near_title: 'Abstand zum horizontalen Bogengang', rpm: number(80000, 0)};
+  for (const [id, text] of Object.entries(texts)) document.getElementById(id).textContent = text;
+  document.getElementById('near').hidden = false;
+  return [...document.querySelectorAll('#stage ~ footer dd, #loop_title')].filter((one) => one.scrollWidth > one.clientWidth)
+    .map((one) => `${one.textContent}: ${one.scrollWidth} of ${one.clientWidth} pixels`);
+})"""
+
+
 def figures_do_not_move_the_picture(browser, site, _source):
-    for name, (width, height, fingers) in SIZES.items():
+    for name, (width, height, fingers) in (SIZES | {"small phone": (320, 568, True)}).items():
         page = browser.open(f"{site.url}mill/?language=de&mode=learn", before=lambda one: size(one, width, height, fingers))
         ready(page)
         page.run("document.getElementById('card_close').click()")
         before = page.run(CANVAS)
-        page.run("(() => { for (const [id, text] of Object.entries({force: '3.3', removed: '12345.6', loop: '1.234.567 Ticks ausgelassen', near_title: 'Abstand zum horizontalen Bogengang', rpm: '80.000'})) "
-                 "document.getElementById(id).textContent = text; document.getElementById('near').hidden = false; })()")
+        for code in ("en", "sv", "de"):
+            cut = page.run(LONGEST + f"({json.dumps(code)}, {json.dumps(words_of(code)['left_out'])})")
+            check(not cut, f"{name}, {code}: no figure is cut off at its edge: {cut}")
         page.run("document.getElementById('say').textContent = 'Ein langer Satz. '.repeat(12)")
         check(page.run(CANVAS) == before, f"{name}: the longest figures and sentences leave the picture where it is")
         page.close()
@@ -213,7 +226,7 @@ def links(browser, site, _source):
     check(page.run("burr.state !== null && document.getElementById('case').value") == "temporal-bone", "a case that there is not: the page's own")
     page.close()
     page = browser.open(f"{site.url}mill/?language=en&bone=scans/ball.nrrd")
-    page.wait("burr.own?.plan", WAIT)
+    page.wait("window.burr?.own?.plan", WAIT)
     check(page.run("burr.own.plan.scan[0]") == scans.EDGE, "?bone= opens a scan that lies beside the page")
     page.close()
 

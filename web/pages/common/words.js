@@ -26,7 +26,7 @@ async function take(code) {
   all[code] = await answer.json();
 }
 
-// word('left_out', 12)
+// word('not_kept', 'why')
 export function word(key, ...parts) {
   const text = all[language]?.[key] ?? all.en?.[key] ?? kFirst[key] ?? '';  // never a bare key
   return text.replace(/\{[^}]*\}/g, (gap) => parts.shift() ?? gap);

@@ -342,7 +342,8 @@ function write() {
   $('size').textContent = number(size_mm, size_mm % 1 === 0 ? 0 : 1);
   $('rpm').textContent = number(rpm, 0);
   const lost = burr.state.left_out;
-  $('loop').textContent = lost > 0 ? word('left_out', number(lost, 0)) : word('ticks_good');
+  $('loop_title').textContent = word(lost > 0 ? 'left_out' : 'ticks');
+  $('loop').textContent = lost > 0 ? number(lost, 0) : word('ticks_good');
 }
 
 // ---- from the user
