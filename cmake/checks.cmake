@@ -256,8 +256,10 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
 
   # the page that portable.web has built, in a browser
   add_test(NAME page COMMAND ${checks}/page.sh ${CMAKE_BINARY_DIR})
+  add_test(NAME page_more COMMAND ${checks}/page.sh ${CMAKE_BINARY_DIR} more)
   set_tests_properties(page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long
     FIXTURES_REQUIRED portable_web)
+  set_tests_properties(page_more PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600 LABELS long FIXTURES_REQUIRED portable_web)
 
   # how a page is published, kept and bound, with a small one: needs no build
   add_test(NAME page_published COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/web/tests/publish_test.py)

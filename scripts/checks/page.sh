@@ -1,15 +1,19 @@
 #!/usr/bin/env bash
 # The page, burr in a browser: opens, mills, records, in Chromium without a screen (web/tests/page_test.py), and
-# has the course of a session: steps, score, report, sound (web/tests/course_test.py); no work is lost (web/tests/loss_test.py). The
-# page is the one that scripts/checks/portable.sh web has built. First its codecs, by node (tests/web/page_codecs.h); at the end the page as
-# it is shipped (web/tests/shipped_test.py). By hand: web/tests/screens_test.py, any screen.
+# has the course of a session: steps, score, report, sound (web/tests/course_test.py). The page is the one that scripts/checks/portable.sh
+# web has built. First its codecs, by node (tests/web/page_codecs.h); at the end the page as it is shipped (web/tests/shipped_test.py).
+# more: no work is lost (web/tests/loss_test.py), any screen (web/tests/screens_test.py); a test of its own, because all of it in one
+# takes too long.
 #
-#     scripts/checks/page.sh BUILD [PICTURES]      PICTURES: a folder that keeps the screenshots
+#     scripts/checks/page.sh BUILD [more] [PICTURES]      PICTURES: a folder that keeps the screenshots
 #
 # The tools are large: where one is missing, the check is left out (exit 77), unless BURR_REQUIRE_TOOLS=1.
 set -euo pipefail
 source "$(dirname "$0")/files.sh"
 build=$(realpath "$1")
+shift
+more=0
+if [ "${1:-}" = more ]; then more=1 && shift; fi
 for tool in em++ node npm chromium; do
   if ! command -v "$tool" >/dev/null; then
     echo "page: $tool is missing (section [tools] of scripts/packages.txt)"
@@ -17,16 +21,20 @@ for tool in em++ node npm chromium; do
     exit 77
   fi
 done
-[ -f build/web/published/version.json ] || { echo "page: is not built; run scripts/checks/portable.sh web $1 first"; exit 1; }
+[ -f build/web/published/version.json ] || { echo "page: is not built; run scripts/checks/portable.sh web $build first"; exit 1; }
+
+if [ $more = 1 ]; then
+  python3 web/tests/loss_test.py build/web/site "$build/burr" ${1:+"$1"}
+  exec python3 web/tests/screens_test.py build/web/site build/web/axe ${1:+"$1"}
+fi
 
 # the modules and pages as they were built; then the folder that a user gets, which is these in another order
 BURR_SITE=build/web/site "$build/test_web" --gtest_brief=1 --gtest_filter='PageCodecs*'
-python3 web/tests/page_test.py build/web/site "$build/burr" ${2:+"$2"}
-python3 web/tests/course_test.py build/web/site "$build/burr" ${2:+"$2"}
-python3 web/tests/loss_test.py build/web/site "$build/burr" ${2:+"$2"}
+python3 web/tests/page_test.py build/web/site "$build/burr" ${1:+"$1"}
+python3 web/tests/course_test.py build/web/site "$build/burr" ${1:+"$1"}
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 "$build/burr" web --out "$out/page"
 diff -r build/web/published "$out/page"
 diff -r build/web/site "$out/page"/v-* | grep -vE '^Only in .*(\.(gz|br|html)|: offline\.js)$' && { echo "page: other parts than those that were built"; exit 1; }
-python3 web/tests/shipped_test.py "$out/page" ${2:+"$2"}
+python3 web/tests/shipped_test.py "$out/page" ${1:+"$1"}
