@@ -450,6 +450,9 @@ def check_replay(page, sessions):
     page.run(button.format("'Play'") + ".click()")
     page.wait(f"Number(document.querySelector('.player input').value) !== {at}", WAIT)
     page.run(button.format("'Pause'") + ".click()")
+    if built:
+        check_evidence(page)
+        look(page, "evidence")
     # an item's moment in the session's table leads into the replay; a moment in the address is taken
     go(page, f"/replay/{sessions[0]}/3")
     page.wait("document.querySelector('.player')", WAIT)
@@ -467,6 +470,36 @@ def check_replay(page, sessions):
     same(page.run("document.querySelectorAll('.two canvas').length"), 2, "pictures beside each other")
     # another view ends the pictures
     go(page, "/")
+
+
+def check_evidence(page):
+    """A lost point with a place: the view turns to it, and a ring marks it in the middle of the picture. A lost context: the picture comes back."""
+    ring = """(() => { const one = document.querySelector('.bone-ring');
+      const [a, b] = [one, document.querySelector('canvas.bone')].map(part => part.getBoundingClientRect());
+      return one.hidden ? Infinity : Math.hypot(a.left + a.width / 2 - b.left - b.width / 2, a.top + a.height / 2 - b.top - b.height / 2); })()"""
+    places = "[...document.querySelectorAll('main td')].filter(one => one.querySelector('button') && / mm$/.test(one.textContent))"
+    assert page.run(f"{places}.length") > 0, "no lost point has a moment and a place"
+    page.run("document.querySelector('canvas.bone').dispatchEvent(new KeyboardEvent('keydown', {key: 'f'}))")  # the whole bone
+    page.wait(f"{ring} > 3", WAIT)
+    page.run(f"{places}[0].querySelector('button').click()")
+    page.wait(f"{ring} < 3", WAIT)
+    before = colours(page)
+    page.run("(() => { const one = document.querySelector('canvas.bone'); one.was_lost = true; one.getContext('webgl2').getExtension('WEBGL_lose_context').loseContext(); })()")
+    page.wait("document.querySelector('.bone-state.wrong') || !document.querySelector('canvas.bone')?.was_lost", WAIT)
+    same(page.run("document.querySelectorAll('.bone-state.wrong').length"), 0, "troubles after a lost context")
+    end = time.monotonic() + WAIT
+    while colours(page) < 0.5 * before and time.monotonic() < end:
+        time.sleep(0.5)
+    assert colours(page) >= 0.5 * before > 5, f"{colours(page)} colours of bone after a lost context, {before} before"
+    page.wait(f"{ring} < 3", WAIT)
+
+
+def colours(page):
+    """Of the bone's picture, on a line through its middle: a picture that is gone has one or two."""
+    page.run("document.querySelector('canvas.bone').scrollIntoView({block: 'center'})")
+    left, top, wide, high = page.run("(() => { const one = document.querySelector('canvas.bone').getBoundingClientRect(); return [one.left, one.top, one.width, one.height]; })()")
+    picture = page.picture()
+    return len({picture.pixel(int(left + 0.05 * wide + n), int(top + 0.4 * high)) for n in range(int(0.9 * wide))})
 
 
 def check_live(page, server, folder):

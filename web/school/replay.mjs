@@ -5,6 +5,7 @@
 
 const kSpeeds = [0.25, 0.5, 1, 2, 4, 8, 16];
 const kTurn = 0.006;             // of the view, per pixel of the pointer  [rad]
+const kRing = 1.2e-3, kRound = 20e-3;  // around a place of evidence: the ring's radius, the height of the picture  [m]
 const kWide = 1000, kHigh = 132;  // of a time line, in its own units
 const pages = "/page/";
 
@@ -17,7 +18,7 @@ async function view_of_bones(kit) {
   modules ??= Promise.all(["common/burr.js", "common/skin.js", "common/canvas.js", "common/words.js"].map(file => import(pages + file)))
     .then(async ([burr, skin, canvas, words]) => {
       await words.load();
-      return { compiled: await burr.compile(), start: burr.start, show: skin.show, begin_bone: skin.begin_bone, fit: canvas.fit, wanted_size: canvas.wanted_size, words };
+      return { compiled: await burr.compile(), start: burr.start, show: skin.show, begin_bone: skin.begin_bone, fit: canvas.fit, is_lost: canvas.is_lost, wanted_size: canvas.wanted_size, words };
     });
   try {
     const all = await modules;
@@ -49,7 +50,10 @@ class Scene {
     this.kit = kit;
     this.canvas = kit.el("canvas", { tabindex: 0, class: "bone", "aria-label": kit.say("bone_picture") });
     this.state = kit.el("p", { role: "status", class: "bone-state" });
-    this.element = kit.el("div", { class: "bone-frame" }, this.canvas, this.state);
+    this.ring = kit.el("div", { class: "bone-ring", hidden: "" });
+    this.element = kit.el("div", { class: "bone-frame" }, this.canvas, this.ring, this.state);
+    this.place = null;   // of evidence [m]: a ring marks it
+    this.turns = false;  // the view has not been turned to it yet
     this.waiting = [];
     this.dirty = true;
     this.wanted = null;
@@ -135,6 +139,20 @@ class Scene {
   }
 
   seek(time) { this.wanted = time; }
+  // The place of what is judged [mm], or null: the view turns to it, and a ring marks it.
+  look_at(place_mm) {
+    this.place = place_mm?.map(value => value / 1000) ?? null;
+    this.turns = this.place !== null;
+    this.dirty = true;
+  }
+  draw_ring() {
+    this.ring.hidden = this.place === null;
+    if (this.place === null) return;
+    const [x, y, r] = this.view.numbers(this.view.view_place(...this.place, kRing), 3), scale = this.canvas.clientHeight / Math.max(1, this.canvas.height);
+    const wide = Math.max(8, scale * r);
+    this.ring.hidden = r < 0;
+    Object.assign(this.ring.style, { left: `${this.canvas.offsetLeft + scale * x - wide}px`, top: `${this.canvas.offsetTop + scale * y - wide}px`, width: `${2 * wide}px`, height: `${2 * wide}px` });
+  }
 
   draw(now) {
     if (this.over) return;
@@ -150,10 +168,16 @@ class Scene {
       const fresh = this.waiting.length > 0;
       for (const one of this.waiting) show(view, one);
       this.waiting = [];
+      if (this.lost) return;
       if (fresh && !this.ready) view.view_anew();
       if (fresh && !this.seen && this.ready) {
         this.seen = true;
         view.view_whole();
+      }
+      if (this.turns && this.ready && this.seen && !this.asked && this.wanted === null) {  // the bone of that moment is there
+        this.turns = false;
+        view.view_turn_to(...this.place, kRound);
+        this.dirty = true;
       }
       if (fit(this.canvas)) this.dirty = true;
       const took = this.drew ? now - this.before : 0;
@@ -161,7 +185,11 @@ class Scene {
       this.drew = this.dirty || fresh || view.view_refined() === 0;
       if (!this.drew) return;
       this.dirty = false;
-      if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) throw new Error(view.text(view.view_why()));
+      if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) {
+        if (this.parts.is_lost(this.canvas)) return this.lose();
+        throw new Error(view.text(view.view_why()));
+      }
+      this.draw_ring();
       if (fresh && this.shown !== null) {
         const [, force, removed, size] = view.numbers(view.view_figures(), 8);
         this.heard({ time: this.shown, force, removed, size });
@@ -199,7 +227,34 @@ class Scene {
       event.preventDefault();
       this.dirty = true;
     });
-    canvas.addEventListener("webglcontextlost", () => this.fail(this.kit.say("no_bone_view")));
+    // the browser has taken the picture away: it is made anew on another canvas, and the bone is still there
+    canvas.addEventListener("webglcontextlost", event => {
+      event.preventDefault();
+      if (!this.over && !this.lost && canvas === this.canvas) this.lose();
+    });
+  }
+  lose() {
+    this.lost = true;
+    this.view.view_lost();
+    this.again(300);
+  }
+  again(wait) {
+    setTimeout(() => {
+      if (this.over) return;
+      const fresh = this.canvas.cloneNode(false);
+      this.canvas.replaceWith(fresh);
+      this.canvas = fresh;
+      opening = opening.then(() => {
+        fresh.id = "picture";
+        const opened = this.view.view_open(...this.parts.wanted_size(fresh));
+        fresh.removeAttribute("id");
+        if (opened === 0) return this.again(Math.min(5000, 2 * wait));
+        this.lost = false;
+        this.dirty = true;
+        this.listen();
+        this.view.view_anew();
+      }).catch(() => {});
+    }, wait);
   }
 }
 
@@ -321,11 +376,13 @@ export async function replay(kit, id, at) {
     };
     const control = player(kit, line.seconds, t => number(t) + " s", t => { scene.seek(t); drawn.show(t); write(t); });
     const drawn = chart(kit, line, lost, control.go);
-    const jump = by => {
+    const jump = (by, then = () => scene.look_at(null)) => {
       const times = by.sort((a, b) => a - b);
       return direction => {
         const next = direction > 0 ? times.find(t => t > control.at + 0.05) : times.findLast(t => t < control.at - 0.05);
-        if (next !== undefined) control.go(next);
+        if (next === undefined) return;
+        control.go(next);
+        then(next);
       };
     };
     const button = (key, act) => {
@@ -333,7 +390,8 @@ export async function replay(kit, id, at) {
       one.addEventListener("click", act);
       return one;
     };
-    const to_lost = jump(lost.map(one => one.at)), to_step = jump(line.steps.map(step => step.from_s));
+    const turn_to = t => scene.look_at(lost.find(one => Math.abs(one.at - t) < 0.05 && one.item.place_mm)?.item.place_mm ?? null);
+    const to_lost = jump(lost.map(one => one.at), turn_to), to_step = jump(line.steps.map(step => step.from_s));
     const to_cut = jump(line.cutting.flatMap((cut, n) => cut && !line.cutting[n - 1] ? [n * line.seconds / line.cutting.length] : []));
     const jumps = [[lost.length, "lost_before", "lost_next", to_lost], [line.steps.length, "step_before", "step_next", to_step], [1, "cut_before", "cut_next", to_cut]]
       .flatMap(([there, before, next, act]) => there ? [button(before, () => act(-1)), button(next, () => act(1))] : []);
@@ -344,10 +402,15 @@ export async function replay(kit, id, at) {
     else place.append(table(say("lost_points"), [[say("item")], [say("value"), "number"], [say("threshold"), "number"], [say("evidence")]],
       unmet.map(item => [textOf(item.say, item.id), number(item.value), number(item.threshold), el("td", {}, lost.filter(one => one.item.id === item.id).map(one => {
         const go = el("button", { type: "button" }, one.at_end ? say("at_end") : number(one.at) + " s");
-        go.addEventListener("click", () => { control.go(one.at); scene.canvas.scrollIntoView({ block: "nearest" }); });
+        go.addEventListener("click", () => {
+          control.go(one.at);
+          scene.look_at(one.item.place_mm ?? null);
+          scene.canvas.scrollIntoView({ block: "nearest" });
+        });
         return go;
       }), item.place_mm ? " " + say("evidence_place", { place: item.place_mm.map(value => number(value)).join("; ") }) : null)])));
     control.go(Number(at) || 0);
+    if (at) turn_to(Number(at));
     scene.open(line);
   }).catch(trouble => {
     waits.textContent = trouble.message;
