@@ -212,6 +212,7 @@ def links(browser, site, _source):
         check(page.run("document.getElementById('case').value") == name and page.run("burr.mode") == "learn", f"?case={name}&mode=learn")
         page.run("document.getElementById('card_close').click()")
         page.run(POINTER + "(2500)")
+        rounds(page)  # a busy worker tells later what it has cut
         check(page.run("burr.figures.removed") > 0.02, f"{title}: the first view shows where to cut: {page.run('burr.figures.removed'):.2f} mm3")
         picture(page, f"case_{name}")
         page.run("burr.course.ask_done(); document.getElementById('done_yes').click()")
