@@ -259,7 +259,8 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   add_test(NAME page_more COMMAND ${checks}/page.sh ${CMAKE_BINARY_DIR} more)
   set_tests_properties(page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long
     FIXTURES_REQUIRED portable_web)
-  set_tests_properties(page_more PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600 LABELS long FIXTURES_REQUIRED portable_web)
+  # a page whose picture a processor draws is slow beside other work, so what it shows comes late: nearly alone, and once more alone
+  set_tests_properties(page_more PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600 PROCESSORS ${BURR_PROCESSORS} LABELS "long;again" FIXTURES_REQUIRED portable_web)
 
   # how a page is published, kept and bound, with a small one: needs no build
   add_test(NAME page_published COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/web/tests/publish_test.py)
@@ -268,6 +269,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # the instructor's page, in a browser; its replay draws with the page that portable.web has built
   add_test(NAME school_page COMMAND ${checks}/school_page.sh ${CMAKE_BINARY_DIR})
   set_tests_properties(school_page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_web)
+  set_tests_properties(page page_more school_page PROPERTIES RESOURCE_LOCK browser)
 
   # libFuzzer: 3 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)

@@ -42,6 +42,8 @@ def state(page):
     """Tick, removed volume, hashes, of one moment."""
     page.run("(() => { delete burr.hashes; burr.hash(); })()")
     page.wait("burr.hashes", WAIT)
+    for _ in range(2):  # a busy page writes later what the worker has told; the next state comes when the last one was written
+        page.wait(f"burr.state.ticks > {page.run('Math.max(burr.hashes.ticks, burr.state.ticks)')}", WAIT)
     return page.run("({...burr.hashes, removed: burr.figures.removed})")
 
 
@@ -156,6 +158,7 @@ def reloaded(browser, site, folder):
     time.sleep(2)
     ready(page)
     comes_back(page, before, "reload")
+    page.wait("burr.course.steps", WAIT)  # they come from another worker
     check(page.run("burr.mode") == "learn" and page.run("burr.course.steps.rows[0].done && burr.course.steps.rows[1].current"), "mode and steps are as they were")
     page.run("document.getElementById('redo').click()")
     page.wait("burr.went_back?.what === 'redo' && burr.went_back.did", WAIT)
