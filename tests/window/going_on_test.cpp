@@ -20,6 +20,7 @@
 #include "burr/report/marked.h"
 #include "burr/sim/replay.h"
 #include "burr/workshop/recorded_bone.h"
+#include "coarse_block.h"
 #include "user.h"
 #include "window/parts/autosave.h"
 #include "window/parts/kept_sessions.h"
@@ -31,14 +32,7 @@ class GoingOn : public Window {
  protected:
   void SetUp() override {
     Window::SetUp();
-    // the practice block in coarse voxels, which open faster
-    std::ifstream in(fs::path(test::source_dir()) / "cases" / "block.toml");
-    std::string text(std::istreambuf_iterator<char>(in), {});
-    const std::string fine = "voxel_mm = 0.25";
-    const std::size_t at = text.find(fine);
-    ASSERT_NE(at, std::string::npos);
-    text.replace(at, fine.size(), "voxel_mm = 0.5");
-    std::ofstream(folder_ / "block.toml") << text;
+    ASSERT_NO_FATAL_FAILURE(write_coarse_block(folder_));
     if (desk_) desk_->ui().listen(&heard_);
   }
   // The user sees this line now.

@@ -24,6 +24,7 @@
 #include "burr/school/pending.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store.h"
+#include "coarse_block.h"
 #include "support/test_places.h"
 #include "user.h"
 #include "window/mill/mill_keys.h"
@@ -43,14 +44,7 @@ class ReviewWindow : public Window {
   void SetUp() override {
     if (const char* state = std::getenv(kState)) folder_ = state;
     Window::SetUp();
-    // the practice block in coarse voxels, which open and are marked faster
-    std::ifstream in(fs::path(test::source_dir()) / "cases" / "block.toml");
-    std::string text(std::istreambuf_iterator<char>(in), {});
-    const std::string fine = "voxel_mm = 0.25";
-    const std::size_t at = text.find(fine);
-    ASSERT_NE(at, std::string::npos);
-    text.replace(at, fine.size(), "voxel_mm = 0.5");
-    std::ofstream(folder_ / "block.toml") << text;
+    ASSERT_NO_FATAL_FAILURE(write_coarse_block(folder_));
   }
   // The pages of burr, with the practice block chosen in this mode; the script plays the user.
   void work_by(record::Mode mode, std::vector<Script::Step> steps) {

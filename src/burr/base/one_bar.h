@@ -26,7 +26,8 @@ class OneBar final : public Progress {
     double share;                          // of the whole work; the shares need not add up to 1
   };
 
-  // whole outlives this, and the texts of the steps too. One step or none: no numbers are said.
+  // `whole`, and the texts that the steps point to, must outlive this object. With fewer than two steps
+  // the stage is reported without numbers.
   OneBar(Progress& whole, std::vector<Step> steps);
   void report(double fraction, std::string_view stage) override;
   [[nodiscard]] bool cancelled() const override { return whole_.cancelled(); }

@@ -1,13 +1,13 @@
 // apps/burr/window/ui/pointer_truth.h - which buttons of the mouse are really down. When a button is
 // pressed in the window and let go outside of it, SDL (2.26) still holds it for down. The next press is
-// then no change for SDL, which drops it. So the X server is asked for the state of the buttons, and the
-// events that SDL did not report are added.
+// then no change for SDL, which drops it. This class asks the X server for the state of the buttons and
+// adds the events that SDL did not report.
 //
 //     PointerTruth truth;
 //     while (truth.next(event)) ...;   // in place of SDL_PollEvent()
 //
-// The X server is asked after each change of focus or visibility; while SDL holds a button for down that is
-// up, once for each picture. Where there is no X server (Wayland, no screen), SDL's events are used as they
+// It asks after each change of focus or visibility. While SDL holds a button for down that is up, it asks
+// once for each picture. Where there is no X server (Wayland, no screen), SDL's events are used as they
 // are. Thread: main.
 #pragma once
 

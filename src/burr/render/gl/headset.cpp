@@ -192,7 +192,7 @@ double vibration_of(double force) {
 // Without vibration the headset is as good as before: only the motor is given up.
 void Headset::Work::cannot_shake(const std::string& because) {
   shaker = XR_NULL_HANDLE;
-  shakes = false;
+  vibrates = false;
   missing = fmt::format(
       "The headset's runtime does not let the controller vibrate ({}); all else works. Update the "
       "runtime if the controller can.",
@@ -209,14 +209,14 @@ void Headset::Work::shaken(const char* call, XrResult code) {
 void Headset::vibrate(double amplitude) {
   Work& w = *work_;
   if (w.over || !w.running || !w.focused) {
-    w.shakes = false;  // the runtime ended it with the focus
+    w.vibrates = false;  // the runtime ended it with the focus
     return;
   }
   if (w.shaker == XR_NULL_HANDLE) return;
   auto which = made<XrHapticActionInfo>(XR_TYPE_HAPTIC_ACTION_INFO);
   which.action = w.shaker;
   if (!(amplitude > 0)) {
-    if (std::exchange(w.shakes, false))
+    if (std::exchange(w.vibrates, false))
       w.shaken("StopHapticFeedback", w.xr.StopHapticFeedback(w.session, &which));
     return;
   }
@@ -224,7 +224,7 @@ void Headset::vibrate(double amplitude) {
   how.amplitude = static_cast<float>(std::min(amplitude, 1.0));
   how.duration = static_cast<XrDuration>(1e9 * kVibrates);
   how.frequency = XR_FREQUENCY_UNSPECIFIED;
-  w.shakes = true;
+  w.vibrates = true;
   w.shaken("ApplyHapticFeedback",
            w.xr.ApplyHapticFeedback(w.session, &which,
                                     reinterpret_cast<const XrHapticBaseHeader*>(&how)));

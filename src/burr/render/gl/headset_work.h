@@ -77,7 +77,7 @@ struct Headset::Work {
   XrAction pose = XR_NULL_HANDLE, trigger = XR_NULL_HANDLE;
   XrAction shaker = XR_NULL_HANDLE;  // none: the runtime cannot vibrate
   bool has_pen = false;              // the runtime knows Logitech's MX Ink
-  bool shakes = false;               // the controller was told to vibrate
+  bool vibrates = false;             // the last command to the controller was to vibrate
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   struct Screen {
     XrSwapchain chain = XR_NULL_HANDLE;
