@@ -28,7 +28,7 @@ bad = []
 
 
 def check(good, text):
-    print(("good: " if good else "BAD:  ") + text, flush=True)
+    print(f"good: {text[:200]}" if good else f"BAD:  {text}", flush=True)
     if not good:
         bad.append(text)
 
@@ -189,6 +189,17 @@ def kept(page):
 
 
 VERSIONS = "caches.keys().then((all) => all.map((one) => one.split(' ').pop()))"
+LOCKS = "navigator.locks.query().then((all) => all.held.map((one) => one.name))"
+# Asks for a new version, and waits for what becomes of it: "activated", or "redundant" where it was refused.
+INSTALLED = """(async () => {
+  const registration = await navigator.serviceWorker.getRegistration();
+  const found = new Promise((done) => registration.addEventListener('updatefound', () => done(registration.installing)));
+  await registration.update();
+  const worker = await found;
+  const ended = () => ['activated', 'redundant'].includes(worker.state);
+  for (; !ended(); await new Promise((done) => setTimeout(done, 100)));
+  return worker.state;
+})()"""
 
 
 def offline(folder):
@@ -225,19 +236,13 @@ def update(folder):
         part.write_bytes(good + b"// damaged\n")
         second = browser.open(host.url + "mill/")
         second.wait("window.burr?.loaded", WAIT)
-        second.run("navigator.serviceWorker.getRegistration().then((one) => one.update()).catch(() => 0)")
-        time.sleep(3)
-        check(second.run("burr.version") == "1" and second.run(VERSIONS) == [one], "of a new version with a damaged file nothing is kept")
+        end = second.run(INSTALLED)
+        check((end, second.run("burr.version"), second.run(VERSIONS)) == ("redundant", "1", [one]),
+              f"of a new version with a damaged file nothing is kept: {end}, {second.run(VERSIONS)}")
         part.write_bytes(good)
         host.asked.clear()
-        second.run("navigator.serviceWorker.getRegistration().then((one) => one.update())")
-        end = time.monotonic() + WAIT
-        while two not in second.run(VERSIONS) or "activated" not in second.run(
-                "navigator.serviceWorker.getRegistration().then((one) => [one.active?.state, one.installing, one.waiting].join())"):
-            if time.monotonic() > end:
-                check(False, "the new version is kept")
-                return
-            time.sleep(0.2)
+        end = second.run(INSTALLED)
+        check(end == "activated" and two in second.run(VERSIONS), f"the new version is kept: {end}")
         again = [path for path in host.asked if "same.mjs" in path or "bound_worker" in path]
         check(any("first.mjs" in path for path in host.asked) and not again, f"what has not changed is not fetched again {again}")
         for page in (first, second):
@@ -250,7 +255,9 @@ def update(folder):
         check(set(third.run(VERSIONS)) == {one, two}, "the old version is kept as long as a page has it open")
         first.close()
         second.close()
-        time.sleep(1)
+        end = time.monotonic() + WAIT
+        while any(one in name for name in third.run(LOCKS)) and time.monotonic() < end:
+            time.sleep(0.2)
         third.send("Page.reload")
         end = time.monotonic() + WAIT
         while third.run(VERSIONS) != [two] and time.monotonic() < end:
