@@ -5,6 +5,7 @@ import {fit, is_lost, wanted_size} from '../common/canvas.js';
 import {show} from '../common/skin.js';
 
 const kAgain = 300, kAgainMost = 5000;  // between two tries to make it anew [ms]
+const kFinest = 5000;                   // a picture for the report is as fine as it is after this time [ms]
 
 const $ = (id) => document.getElementById(id);
 // Signs over the picture, one for each kind of mark. d: of an SVG path about 0, 0; r [px]
@@ -83,7 +84,7 @@ export class Picture {
   refined() { return this.alive && this.view.view_refined() === 1 && this.waiting.length === 0; }
   snapshot() {
     return new Promise((go) => {
-      this.pictured = go;
+      this.pictured = {go, until: performance.now() + kFinest};
       this.dirty = true;
     });
   }
@@ -118,7 +119,8 @@ export class Picture {
       }
       ++this.count;
       this.draw_signs();
-      if (this.pictured && view.view_refined() === 1) this.give_picture();  // now: later the canvas is empty
+      // now: later the canvas is empty
+      if (this.pictured && (view.view_refined() === 1 || performance.now() > this.pictured.until)) this.give_picture();
       if (this.skin_whole || this.count > 1 || fresh) this.host.mark('first_picture');
       if (this.skin_whole) this.host.mark('whole_picture');
       this.host.drawn(fresh);
@@ -127,7 +129,7 @@ export class Picture {
     }
   }
   give_picture() {
-    const {canvas} = this, go = this.pictured;
+    const {canvas} = this, {go} = this.pictured;
     this.pictured = null;
     canvas.toBlob(async (blob) => go({png: new Uint8Array(await blob.arrayBuffer()), width: canvas.width, height: canvas.height}));
   }
