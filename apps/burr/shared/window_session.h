@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "burr/base/renew.h"
 #include "burr/mouse/mouse_hand.h"
 #include "burr/render/scene.h"
 #include "burr/scenario/lesson.h"
@@ -28,6 +29,13 @@ namespace burr::app {
 // Everything that a session in the window needs, with a hand: the mouse or a haptic device. Members
 // are destroyed in reverse order of declaration; keep this order.
 struct WindowSession {
+  WindowSession() = default;
+  WindowSession(WindowSession&&) noexcept = default;
+  // Ends the old session as its destructor does. Member by member it would lose the bone while the
+  // worker still reads it.
+  WindowSession& operator=(WindowSession&& other) noexcept { return base::renew(*this, other); }
+  ~WindowSession() = default;
+
   std::string title, what;  // title: one line; what: the bone; neither names a patient
   scenario::BoneRecipe volume;
   importing::ImportSummary import;

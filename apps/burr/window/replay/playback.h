@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "burr/base/progress.h"
+#include "burr/base/renew.h"
 #include "burr/base/result.h"
 #include "burr/record/player.h"
 #include "burr/record/timeline.h"
@@ -40,6 +41,11 @@ namespace burr::app {
 
 // Members are destroyed in reverse order of declaration; keep this order.
 struct Recorded {
+  Recorded() = default;
+  Recorded(Recorded&&) noexcept = default;
+  Recorded& operator=(Recorded&& other) noexcept { return base::renew(*this, other); }
+  ~Recorded() = default;
+
   std::string title;  // one line, without the name of a patient
   std::unique_ptr<record::Player> player;
   sim::Recorded settings;
