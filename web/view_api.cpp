@@ -41,7 +41,8 @@ constexpr double kThinRest = 0.3, kThinShare = 0.25, kThinMost = 0.06, kThinLeas
 // A picture with fewer triangles is drawn once more with all of them when nothing has changed for this long, longer
 // than two updates of dust and blood lie apart (render/governor.h) [s].
 constexpr double kWholeRest = 2.5;
-constexpr double kSpin = 9;  // 40 000 rpm are too fast to see, as in the window [rad/s]
+constexpr double kSuctionBeside = 3e-3;  // as in the window: its reach beyond the burr [m]
+constexpr double kSpin = 9;              // 40 000 rpm are too fast to see, as in the window [rad/s]
 
 struct View {
   std::unique_ptr<render::Renderer> renderer;
@@ -51,7 +52,8 @@ struct View {
   std::optional<mouse::MouseAim> aim;
   mouse::MouseHand::Aim hand;
   render::HeldTool held;
-  bool leans = true;  // the tool follows a mouse, and is drawn as a hand would hold it
+  bool leans = true;   // the tool follows a mouse, and is drawn as a hand would hold it
+  bool sucks = false;  // suction beside the burr is on
   std::map<int, std::shared_ptr<const render::ToolLook>> looks;     // of tools of the rack
   std::map<int, std::shared_ptr<const render::CoarseMesh>> shapes;  // of pieces of bone
   workshop::PieceLook piece;
@@ -329,9 +331,9 @@ EMSCRIPTEN_KEEPALIVE void view_piece(int number, const double* by) {
               {{by[0], by[1], by[2]}, {by[3], by[4], by[5], by[6]}}, v.tissue_count);
 }
 // What the page writes of the row: time [s], force [N], removed [mm^3], diameter of the burr [mm],
-// speed that is set [rpm], speed now [rpm], touching, flags.
+// speed that is set [rpm], speed now [rpm], touching, flags, coolant runs.
 EMSCRIPTEN_KEEPALIVE const double* view_figures() {
-  static double figures[8];
+  static double figures[9];
   const tick::TickRow& row = view().row;
   constexpr double kRpm = 60 / (2 * 3.14159265358979323846);
   figures[0] = static_cast<double>(row.tick) / view().rate;
@@ -342,8 +344,12 @@ EMSCRIPTEN_KEEPALIVE const double* view_figures() {
   figures[5] = row.spindle_rad_s * kRpm;
   figures[6] = row.contact.touching ? 1 : 0;
   figures[7] = row.contact.flags;
+  figures[8] = row.tool.irrigated ? 1 : 0;
   return figures;
 }
+
+// Suction beside the burr: water, dust and blood near it leave the picture.
+EMSCRIPTEN_KEEPALIVE void view_suction(int on) { view().sucks = on != 0; }
 
 // Where the hand shall be for this point of the picture: the bytes of a MouseHand::Aim for
 // core_aim(). pressed: not 0, at `depth` below the surface and this share of the speed.
@@ -427,6 +433,7 @@ EMSCRIPTEN_KEEPALIVE int view_show(double now, double took, int left_handed) {
   v.governor->end(took, v.renderer->figures().redrawn, now);
   v.scene.quality = v.governor->begin(v.scene.camera, now);
   v.now = now;
+  if (v.sucks) v.wound->suck(v.row.contact.proxy, v.row.tool.radius + kSuctionBeside, seconds);
   v.wound->renew(v.scene, now);
   thin_some(v, took);
   show_whole_at_rest(v);

@@ -14,6 +14,7 @@ import tomllib
 # keys of words/*.toml that the page shows
 SHARED = """language force speed burr removed ticks ticks_good ticks_lost undo redo reset smaller larger slower faster
 undone redone back_to_start press pressing lifted time
+coolant_on coolant_off suction_on suction_off
 mode_title mode_free mode_learn mode_practise mode_exam done_button""".split()
 
 

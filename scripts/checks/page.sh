@@ -2,8 +2,8 @@
 # The page, burr in a browser: opens, mills, records, in Chromium without a screen (web/tests/page_test.py), and
 # has the course of a session: steps, score, report, sound (web/tests/course_test.py). The page is the one that scripts/checks/portable.sh
 # web has built. First its codecs, by node (tests/web/page_codecs.h); at the end the page as it is shipped (web/tests/shipped_test.py).
-# more: no work is lost (web/tests/loss_test.py); a test of its own, because all of it in one takes too long. Any screen
-# (web/tests/screens_test.py SITE AXE) is run by hand: the picture for the marks of the spine's case comes late or not at all (docs/status.md).
+# more: no work is lost (web/tests/loss_test.py), any screen (web/tests/screens_test.py); a test of its own, because all of it in one
+# takes too long.
 #
 #     scripts/checks/page.sh BUILD [more] [PICTURES]      PICTURES: a folder that keeps the screenshots
 #
@@ -24,7 +24,8 @@ done
 [ -f build/web/published/version.json ] || { echo "page: is not built; run scripts/checks/portable.sh web $build first"; exit 1; }
 
 if [ $more = 1 ]; then
-  exec python3 web/tests/loss_test.py build/web/site "$build/burr" ${1:+"$1"}
+  python3 web/tests/loss_test.py build/web/site "$build/burr" ${1:+"$1"}
+  exec python3 web/tests/screens_test.py build/web/site build/web/axe ${1:+"$1"}
 fi
 
 # the modules and pages as they were built; then the folder that a user gets, which is these in another order

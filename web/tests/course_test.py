@@ -155,6 +155,8 @@ def score(page, recorded, mine):
     valued = sum("value" in one for one in found["items"])
     print(f"the same to the bit: {exact} of {len(found['items'])} items, {valued} with a value")
     check(valued >= 10, f"{valued} items have a value")
+    wet = next(one for one in native["items"] if one["id"] == "coolant.on")
+    check(wet["outcome"] == "met" and wet["value"] > 0.9, f"coolant is marked: {wet}")
     check(not native["unfinished"] and native["ending"] == "declared done", "the recording says that the work is done")
     check(native["rubric_changed"] is False, "the recording names the rubric")
     checked = subprocess.run([BURR, "replay", recorded, "--check"], capture_output=True, text=True)
@@ -212,6 +214,49 @@ FIND = """(async () => {
     if (to_spare !== null && to_spare < -6e-4) return [x, y, z];
   }
 })()"""
+
+
+def coolant(page):
+    """Coolant by its key: the button, the sentence, and the ticks say that it runs."""
+    pressed = "document.getElementById('coolant').getAttribute('aria-pressed')"
+    check(page.run(pressed) == "false" and page.run("burr.figures.wet") == 0, "a session begins dry")
+    page.run("document.getElementById('picture').focus()")
+    press(page, "i")
+    page.wait("burr.figures.wet === 1", WAIT)
+    check(page.run(pressed) == "true" and page.run("document.getElementById('say').textContent") == words_of("en")["coolant_on"], "key I: coolant runs")
+
+
+# The burr waits where it has cut.
+HOVER = """(() => {
+  const canvas = document.getElementById('picture'), box = canvas.getBoundingClientRect();
+  canvas.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + 0.5 * box.width, clientY: box.top + 0.5 * box.height,
+      button: -1, pointerId: 1, pointerType: 'mouse', bubbles: true}));
+})()"""
+
+
+def changed_pixels(one, other):
+    """In the middle of the picture, by more than noise."""
+    step = one.step
+    return sum(max(abs(one.rows[y][step * x + n] - other.rows[y][step * x + n]) for n in range(3)) > 12
+               for y in range(100, one.height - 140) for x in range(300, one.width - 300))
+
+
+def suction(page):
+    """It takes water and dust out of the picture, and nothing out of the bone."""
+    page.run(HOVER)
+    page.run("document.getElementById('picture').focus()")
+    time.sleep(4)  # until the burr is there
+    looks = []
+    for key in ("", "", "6"):
+        if key:
+            press(page, key)
+            page.wait("document.getElementById('suction').getAttribute('aria-pressed') === 'true'", WAIT)
+        time.sleep(6)  # by itself, what was wet dries meanwhile
+        page.run("burr.picture.snapshot()")
+        looks.append(keep(page, f"suction_{len(looks)}"))
+    changed = [changed_pixels(*pair) for pair in zip(looks, looks[1:])]
+    check(changed[1] > 40 and changed[1] > 2 * changed[0], f"suction clears the picture: pixels that change without it, with it: {changed}")
+    press(page, "6")
 
 
 def guidance(page):
@@ -279,9 +324,11 @@ def learn(browser, site, downloads):
     steps(page, "en")
     keep(page, "steps")
     walk(page)
+    coolant(page)
     guidance(page)
     page.run(POINTER + "(9000)")
     page.wait("burr.figures.removed > 1", WAIT)
+    suction(page)
     page.run("(() => { const one = document.getElementById('language'); one.value = 'sv'; one.dispatchEvent(new Event('change')); })()")
     page.wait("document.querySelector('#course .title')?.textContent === burr.course.steps.rows.find((one) => one.current).title && "
               f"burr.course.texts.done_yes === {json.dumps(words_of('sv')['done_yes'])}", WAIT)

@@ -35,6 +35,8 @@ export function dress(burr, {is_own, depth}) {
     $(id).setAttribute('aria-label', word(key));
   }
   $('picture').setAttribute('aria-label', word('bone'));
+  name('coolant', 'coolant', 'coolant_tip');
+  name('suction', 'suction', 'suction_tip');
   name('sound', burr.sound.on ? 'mute' : 'sound_on');
   $('volume').title = word('volume');
   $('volume').setAttribute('aria-label', word('volume'));

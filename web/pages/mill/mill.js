@@ -93,7 +93,13 @@ const course = burr.course = new Course({
   kept: () => (kept.failed ? null : kept.id),
 });
 const sound = burr.sound = new Sound();
-const tools = new Tools({command: (what, value) => command(what, value), voxel: () => burr.voxel, fastest: () => sessions.about.rpm});
+const tools = burr.tools = new Tools({
+  command: (what, value) => command(what, value),
+  voxel: () => burr.voxel,
+  fastest: () => sessions.about.rpm,
+  suck: (on) => picture.view?.view_suction(on ? 1 : 0),
+  say: (key) => say(word(key), 5000),
+});
 const sessions = burr.sessions = new Sessions({
   burr, picture, course, kept, hand, tools,
   say: (...what) => say(...what),
@@ -330,11 +336,11 @@ function point(view) {
 
 function write() {
   const {view} = picture;
-  const [time, force, removed, size_now, rpm, now, touching, flags] = view.numbers(view.view_figures(), 8);
+  const [time, force, removed, size_now, rpm, now, touching, flags, wet] = view.numbers(view.view_figures(), 9);
   const size_mm = Math.round(100 * size_now) / 100;
-  burr.figures = {time, force, removed, size: size_mm, rpm, now, touching, flags};
+  burr.figures = {time, force, removed, size: size_mm, rpm, now, touching, flags, wet};
   if (burr.ready) sessions.cut = Math.max(sessions.cut, removed);  // before, the row may be that of the session before
-  tools.seen(size_mm);
+  tools.seen(size_mm, wet > 0);
   if (!burr.ready) return;
   $('force').textContent = number(force, 1);
   $('bar').style.width = `${Math.min(100, 100 * force / kMostForce)}%`;
@@ -372,6 +378,8 @@ const acts = {
   faster: () => tools.change_speed(1),
   less: () => tools.change_depth(-1),
   more: () => tools.change_depth(1),
+  coolant: () => { if (burr.ready) tools.toggle_coolant(); },
+  suction: () => tools.toggle_suction(),
   home: () => {
     if (!picture.alive) return;
     if (sessions.is_own) picture.view.view_whole();
@@ -423,7 +431,7 @@ function look_at(place, name) {
 
 const keys = {
   u: 'undo', y: 'redo', r: 'reset', '[': 'smaller', ']': 'larger', PageDown: 'smaller', PageUp: 'larger', ',': 'slower',
-  '.': 'faster', '+': 'more', '=': 'more', '-': 'less', f: 'home', j: 'step_done', a: 'light', o: 'show_steps', m: 'sound',
+  '.': 'faster', '+': 'more', '=': 'more', '-': 'less', f: 'home', i: 'coolant', 6: 'suction', j: 'step_done', a: 'light', o: 'show_steps', m: 'sound',
 };
 
 function listen() {
