@@ -109,7 +109,9 @@ file(GLOB score CONFIGURE_DEPENDS ${src}/scoring/*.cpp ${src}/metrics/*.cpp ${sr
 list(FILTER score EXCLUDE REGEX "/(report_pictures|step_watch|recipe|case_text|write_case)\\.cpp$")
 file(GLOB bones CONFIGURE_DEPENDS ${src}/phantom/*.cpp)
 list(REMOVE_ITEM bones ${phantom})
-burr_web_parts(burr_score_parts ${score} ${bones} ${src}/workshop/label_check.cpp ${src}/workshop/allowed.cpp
+burr_web_parts(burr_bones_parts ${bones})
+target_compile_options(burr_bones_parts PRIVATE -Os)
+burr_web_parts(burr_score_parts ${score} ${src}/workshop/label_check.cpp ${src}/workshop/allowed.cpp
   ${src}/workshop/piece_plan.cpp ${src}/sim/move_pieces.cpp ${src}/base/text_file.cpp ${src}/base/markup.cpp
   ${src}/base/base64.cpp ${src}/workshop/spared_distance.cpp
   ${PROJECT_SOURCE_DIR}/third_party/safe_toml.cpp ${CMAKE_BINARY_DIR}/words/word_texts.cpp
@@ -120,7 +122,7 @@ file(GLOB score_api CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/score/*.cpp)
 add_executable(burr_score ${score_api} ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp
   ${web_dir}/whole_chunks_web.cpp)
 target_include_directories(burr_score PRIVATE ${web_dir} ${CMAKE_BINARY_DIR}/words ${PROJECT_SOURCE_DIR}/third_party)
-target_link_libraries(burr_score PRIVATE burr_score_parts burr_record_parts burr_reading_parts burr_phantom_parts)
+target_link_libraries(burr_score PRIVATE burr_score_parts burr_bones_parts burr_record_parts burr_reading_parts burr_phantom_parts)
 set_target_properties(burr_score PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs)
 target_link_options(burr_score PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=worker -sFORCE_FILESYSTEM=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=4GB
@@ -160,6 +162,16 @@ target_link_options(burr_import PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1
   -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=2GB
   -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS,WORKERFS -lworkerfs.js)
 
+# The npm package burr-core: bones, sessions tick by tick, recordings, for other people's pages and for Node. It is packed, not published.
+# Not for "node": Debian's emscripten writes `require` for it into modules that have none, and npm/index.mjs reads the files itself.
+add_executable(burr_npm ${web_dir}/npm/npm_api.cpp ${web_dir}/page_recorder.cpp ${web_dir}/no_cases_web.cpp ${web_dir}/crc32_web.cpp ${web_dir}/packed_web.cpp)
+target_include_directories(burr_npm PRIVATE ${web_dir})
+target_link_libraries(burr_npm PRIVATE burr_bones_parts burr_record_parts burr_phantom_parts)
+set_target_properties(burr_npm PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/web SUFFIX .mjs OUTPUT_NAME burr_core)
+target_link_options(burr_npm PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_ES6=1 -sENVIRONMENT=web,worker -sFORCE_FILESYSTEM=1
+  -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sMAXIMUM_MEMORY=4GB
+  -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString,FS)
+
 # Codecs of others, from npm, as web/package-lock.json names them: fetched once, kept in the folder of the build.
 set(codecs ${CMAKE_BINARY_DIR}/web/codecs)
 add_custom_command(OUTPUT ${codecs}/licences.txt
@@ -190,3 +202,11 @@ add_custom_command(OUTPUT ${published}/version.json
   COMMAND Python3::Interpreter -B ${web_dir}/publish/publish.py ${site} ${published} ${PROJECT_VERSION}
   DEPENDS ${site}/words/en.json ${publishing} COMMENT "The page for hosts: ${published}" VERBATIM)
 add_custom_target(site ALL DEPENDS ${published}/version.json)
+
+# the package as `npm install` takes it
+set(package ${CMAKE_BINARY_DIR}/burr-core)
+file(GLOB_RECURSE package_files CONFIGURE_DEPENDS ${web_dir}/npm/*)
+add_custom_command(OUTPUT ${package}/package.json
+  COMMAND Python3::Interpreter -B ${web_dir}/npm/pack.py ${CMAKE_BINARY_DIR}/web ${package} ${PROJECT_VERSION}
+  DEPENDS burr_npm ${codecs}/licences.txt ${package_files} ${PROJECT_SOURCE_DIR}/LICENSE COMMENT "The npm package: ${package}" VERBATIM)
+add_custom_target(npm ALL DEPENDS ${package}/package.json)

@@ -13,13 +13,14 @@ namespace burr::web {
 Result<std::unique_ptr<PageRecorder>> PageRecorder::begin(const volume::Bone& bone,
                                                           const tick::ServoSettings& settings,
                                                           const device::DeviceSpec& device,
-                                                          double voxel_mm, const PageTask& task) {
+                                                          double voxel_mm, const PageTask& task,
+                                                          const char* file) {
   // what workshop::record() writes of a session on the desktop
   sim::SessionSettings session;
   session.servo = settings;
   record::SessionInfo info;
   sim::describe(session, device, info);
-  info.words["motion"] = "mouse";
+  info.words["motion"] = task.motion;
   info.identity.emplace();
   if (!task.work_case.name.empty()) {
     info.work_case = task.work_case;
@@ -47,7 +48,7 @@ Result<std::unique_ptr<PageRecorder>> PageRecorder::begin(const volume::Bone& bo
 
   std::unique_ptr<PageRecorder> recorder(new PageRecorder());
   auto writer = std::make_unique<record::McapWriter>();
-  if (Status opened = writer->open(kFile, kFile); !opened.ok()) return opened.error();
+  if (Status opened = writer->open(file, file); !opened.ok()) return opened.error();
   auto pen = record::Pen::begin(
       writer, info, &bone, {recorder->ticks_, recorder->commands_, recorder->bricks_, nullptr});
   if (!pen) return pen.error();

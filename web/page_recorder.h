@@ -25,7 +25,8 @@ struct PageTask {
   record::CaseInfo work_case;  // its hash is not needed
   record::Mode mode = record::Mode::free;
   std::uint64_t rubric_hash = 0;
-  std::string phantom;  // "phantom:" and the name of the bone; empty: it is no phantom
+  std::string phantom;           // "phantom:" and the name of the bone; empty: it is no phantom
+  const char* motion = "mouse";  // what moves the hand
 };
 
 class PageRecorder {
@@ -34,9 +35,11 @@ class PageRecorder {
 
   // bone: as it is before the first tick, after the surface was made; it goes into the file.
   // settings: as the servo has them. voxel_mm: of a phantom; 0: a bone of the user's.
+  // file: in the module's own file system; each recording that is being made has one of its own.
   [[nodiscard]] static Result<std::unique_ptr<PageRecorder>> begin(
       const volume::Bone& bone, const tick::ServoSettings& settings,
-      const device::DeviceSpec& device, double voxel_mm, const PageTask& task);
+      const device::DeviceSpec& device, double voxel_mm, const PageTask& task,
+      const char* file = kFile);
 
   [[nodiscard]] tick::RecorderRings rings() { return {&ticks_, &commands_, &bricks_, nullptr}; }
   // Writes what waits. Call it at least every kDue ticks.
