@@ -262,6 +262,12 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # a page whose picture a processor draws is slow beside other work, so what it shows comes late: nearly alone, and once more alone
   set_tests_properties(page_more PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600 PROCESSORS ${BURR_PROCESSORS} LABELS "long;again" FIXTURES_REQUIRED portable_web)
 
+  # in another page's frame and as a course; the npm package; another browser
+  foreach(part framed npm firefox)
+    add_test(NAME page_${part} COMMAND ${checks}/page.sh ${CMAKE_BINARY_DIR} ${part})
+    set_tests_properties(page_${part} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_web)
+  endforeach()
+
   # how a page is published, kept and bound, with a small one: needs no build
   add_test(NAME page_published COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/web/tests/publish_test.py)
   set_tests_properties(page_published PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 LABELS long)
@@ -269,7 +275,7 @@ if(NOT BURR_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TY
   # the instructor's page, in a browser; its replay draws with the page that portable.web has built
   add_test(NAME school_page COMMAND ${checks}/school_page.sh ${CMAKE_BINARY_DIR})
   set_tests_properties(school_page PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1800 LABELS long FIXTURES_REQUIRED portable_web)
-  set_tests_properties(page page_more school_page PROPERTIES RESOURCE_LOCK browser)
+  set_tests_properties(page page_more page_framed page_npm page_firefox school_page PROPERTIES RESOURCE_LOCK browser)
 
   # libFuzzer: 3 s for every reader; scripts/fuzz_night.sh runs longer
   add_test(NAME fuzz.seeds COMMAND ${checks}/fuzz.sh seeds)

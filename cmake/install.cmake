@@ -58,4 +58,6 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/cases/ DESTINATION ${CMAKE_INSTALL_DATAD
 # the page, where it was built (scripts/build_page.sh); `burr web` copies it, and it is a package of its own
 if(EXISTS ${CMAKE_BINARY_DIR}/../web/published/version.json)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/../web/published/ DESTINATION ${CMAKE_INSTALL_DATADIR}/burr/web COMPONENT web)
+  install(FILES ${CMAKE_BINARY_DIR}/../web/burr-cmi5.zip DESTINATION ${CMAKE_INSTALL_DATADIR}/burr COMPONENT web OPTIONAL)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/../web/burr-core DESTINATION ${CMAKE_INSTALL_DATADIR}/burr COMPONENT web OPTIONAL)
 endif()

@@ -450,13 +450,12 @@ string tiff_page(std::size_t bits, const string& description, std::uint32_t page
 }
 
 void pictures() {
-  const string imagej(
-      "ImageJ=1.53t\nimages=4\nchannels=2\nslices=2\nunit=mm\nspacing=2\ncf=0\nc0=-9\nc1=1\n\0",
-      84);
-  const string ome(
+  using namespace std::string_literals;
+  const string imagej =
+      "ImageJ=1.53t\nimages=4\nchannels=2\nslices=2\nunit=mm\nspacing=2\ncf=0\nc0=-9\nc1=1\n\0"s;
+  const string ome =
       "<OME><Pixels DimensionOrder=\"XYZCT\" PhysicalSizeX=\"5\" PhysicalSizeY=\"5\" "
-      "SizeZ=\"3\"/>\0",
-      83);
+      "SizeZ=\"3\"/>\0"s;
   seed("tiff", "pages", tiff_page(16, string("x\0", 2), 3));
   seed("tiff", "imagej", tiff_page(8, imagej, 4));
   seed("tiff", "ome", tiff_page(16, ome, 3));

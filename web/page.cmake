@@ -203,6 +203,14 @@ add_custom_command(OUTPUT ${published}/version.json
   DEPENDS ${site}/words/en.json ${publishing} COMMENT "The page for hosts: ${published}" VERBATIM)
 add_custom_target(site ALL DEPENDS ${published}/version.json)
 
+# the same as a course of a learning management system
+set(course ${CMAKE_BINARY_DIR}/burr-cmi5.zip)
+file(GLOB course_files CONFIGURE_DEPENDS ${web_dir}/cmi5/* ${PROJECT_SOURCE_DIR}/cases/*.toml)
+add_custom_command(OUTPUT ${course}
+  COMMAND Python3::Interpreter -B ${web_dir}/publish/cmi5.py ${PROJECT_SOURCE_DIR} ${published} ${course}
+  DEPENDS ${published}/version.json ${course_files} ${publishing} COMMENT "The course for cmi5: ${course}" VERBATIM)
+add_custom_target(course ALL DEPENDS ${course})
+
 # the package as `npm install` takes it
 set(package ${CMAKE_BINARY_DIR}/burr-core)
 file(GLOB_RECURSE package_files CONFIGURE_DEPENDS ${web_dir}/npm/*)

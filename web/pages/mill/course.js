@@ -11,7 +11,7 @@ const $ = (id) => document.getElementById(id);
 
 export class Course {
   // host: tell(message for the worker that ticks), say(text, ms), figures(), picture(), keep(bytes, name, type), changed(),
-  // opened(compiled), step(id), light(what is lit or null), look_at(place, its name),
+  // opened(compiled), step(id), done(), marked(score), light(what is lit or null), look_at(place, its name),
   // kept() the id of the recording in the browser's storage, or null
   constructor(host) {
     this.host = host;
@@ -117,6 +117,7 @@ export class Course {
       this.found = data.marks ?? null;
       this.trouble = data.why ?? '';
       this.page = 'found';
+      if (this.found) this.host.marked(this.found.score);
     } else if (data.kind === 'lit') {
       this.light(data.light);
     } else if (data.kind === 'dressed' && data.marks) {
@@ -251,6 +252,7 @@ export class Course {
   own_finished(kept) {
     if (kept) for (const [what, value] of this.marks) this.note({kind: 'self_mark', what, value});
     this.page = this.steps.marks ? 'waits' : 'exam';
+    this.host.done();
     this.host.tell({kind: 'save', declared: true});
     this.show();
   }

@@ -6,6 +6,7 @@ import * as words from '../common/words.js';
 import {make} from './ask.js';
 import {Course} from './course.js';
 import {dress, dress_sound} from './dress.js';
+import {Embed} from './embed.js';
 import {Hand} from './hand.js';
 import {Kept} from './kept.js';
 import {Picture} from './picture.js';
@@ -18,6 +19,8 @@ const {word, number} = words;
 
 const kTicks = 1000;                   // a second
 const kModes = ['free', 'learn', 'practise', 'exam'];
+const kBusy = 2000;                    // after ticks were left out the picture gives way so long [ms]
+const kBehind = 40;                    // patches that wait: the picture is behind what is felt
 const kMostForce = 3.3;                // of the hand; the bar is full there  [N]
 const kRecoverAgain = 60000;           // a worker that ends twice so quickly ends the page [ms]
 
@@ -29,6 +32,7 @@ let answered = true;    // a state has come that was not answered yet
 let rest = null;        // what is not needed for the first cut is loaded, or on its way
 let list = null, make_stl = null;  // of that: the work that is kept; the file of a shape
 let recovered = -kRecoverAgain;
+let lost_at = -kBusy;   // when ticks were last left out [ms]
 
 const picture = new Picture({
   lost: () => {
@@ -40,6 +44,7 @@ const picture = new Picture({
   mark: (name) => mark(name),
   ready: () => burr.ready,
   aim: (view) => point(view),
+  busy: () => performance.now() - lost_at < kBusy,
   drawn: (fresh) => { if (fresh) write(); },
   fail: (what) => fail(what),
 });
@@ -50,7 +55,7 @@ const burr = window.burr = {
   times: {},  // ms since the page was asked for
   get pictures() { return picture.count; },
   picture,
-  state: {ticks: 0, left_out: 0, p50: 0, p99: 0},
+  state: {ticks: 0, left_out: 0, behind: 0, p50: 0, p99: 0},
   figures: {},
   ready: false,
   voxel: 0.5,
@@ -87,12 +92,32 @@ const course = burr.course = new Course({
   changed: () => dress_course(),
   // an exam watches over nobody
   opened: (compiled_score) => (burr.mode === 'exam' ? watch.host.opened() : watch.open(compiled_score, sessions.about.name, burr.voxel, burr.mode, sessions.work)),
-  step: (id) => watch.step(id),
+  step: (id) => {
+    watch.step(id);
+    embed.tell('step', {id: id ?? null});
+  },
+  marked: (score) => embed.tell('marked', {score}),
+  done: () => embed.tell('done', embed.host.figures()),
   light: (what) => picture.light(what),
   look_at: (place, name) => look_at(place, name),
   kept: () => (kept.failed ? null : kept.id),
 });
 const sound = burr.sound = new Sound();
+const embed = burr.embed = new Embed({
+  open: (name, mode) => sessions.end_then(() => {
+    if (kModes.includes(mode)) burr.mode = mode;
+    return sessions.open_case(name || sessions.about.name).catch(() => say(word('no_case', name), 12000));
+  }),
+  language: (code) => speak(code),
+  finish: () => course.ask_done(),
+  recording: () => {
+    if (course.file) course.file.arrayBuffer().then((bytes) => embed.give({file: new Uint8Array(bytes), complete: true}));
+    else if (burr.ready && course.page === null) worker.postMessage({kind: 'save', declared: false});
+    else return false;
+    return true;
+  },
+  figures: () => (burr.ready ? {time_s: burr.state.ticks / kTicks, force_n: burr.figures.force ?? 0, removed_mm3: burr.figures.removed ?? 0} : null),
+});
 const tools = burr.tools = new Tools({
   command: (what, value) => command(what, value),
   voxel: () => burr.voxel,
@@ -125,6 +150,7 @@ const watch = burr.watch = new Watch({
     watch.step(course.steps?.now?.id);
     watch.heard(sound.on);
     dress_course();
+    embed.tell('loaded');
   },
 });
 
@@ -206,6 +232,7 @@ function fail(what) {
   picture.stopped = true;
   worker?.terminate();
   const lacking = typeof WebAssembly !== 'object' || what instanceof WebAssembly.CompileError;
+  embed.tell('stopped', {why: burr.trouble});
   say(lacking ? word('no_module') : what?.why ? word(what.why, ...what.parts) : word(sessions.cut > 0 && kept.id && !kept.failed ? 'broken_kept' : 'broken', burr.trouble));
   console.error(what);
 }
@@ -258,7 +285,8 @@ function hear(data) {
     case 'state':
       picture.waiting.push(...data.patches, {row: data.row});
       sound.row(data.row);
-      burr.state = {ticks: data.ticks, left_out: data.left_out, p50: data.p50, p99: data.p99};
+      if (data.left_out > burr.state.left_out) lost_at = performance.now();
+      burr.state = {ticks: data.ticks, left_out: data.left_out, behind: data.behind, p50: data.p50, p99: data.p99};
       answered = false;
       ++tools.states;
       break;
@@ -296,6 +324,7 @@ function ready() {
   if (sessions.is_own) course.leave(sessions.work);
   else course.begin(sessions.about.name, burr.voxel, burr.mode, sessions.work, sessions.before?.events);
   rest ??= load_rest().catch((what) => console.error(what));
+  embed.tell('ready', {case: sessions.is_own ? null : sessions.about.name, mode: burr.mode, voxel_mm: burr.voxel, language: words.present()});
   if (sessions.before) sessions.came_back();
   else say(word('drag_mill') + '. ' + word('how_mouse'), 12000);
 }
@@ -311,6 +340,7 @@ function say_went_back({what, did, whole, of_reset}) {
 }
 
 function take_saved(data) {
+  if (!(data.file && data.complete) && embed.give(data)) return;
   if (data.file && !data.complete) {
     sessions.copied = burr.figures.removed;
     keep(data.file, 'burr.mcap', 'application/octet-stream');
@@ -318,6 +348,7 @@ function take_saved(data) {
   } else if (!course.takes(data)) {
     say(data.why ? word('not_saved', data.why) : word('saved_before'), 12000);
   }
+  if (data.complete) embed.again();
 }
 
 // ---- each picture
@@ -349,7 +380,7 @@ function write() {
   $('rpm').textContent = number(rpm, 0);
   const lost = burr.state.left_out;
   $('loop_title').textContent = word(lost > 0 ? 'left_out' : 'ticks');
-  $('loop').textContent = lost > 0 ? number(lost, 0) : word('ticks_good');
+  $('loop').textContent = lost > 0 ? number(lost, 0) : word(burr.state.behind > kBehind ? 'picture_behind' : 'ticks_good');
 }
 
 // ---- from the user
@@ -457,13 +488,7 @@ function listen() {
   });
   for (const id of Object.keys(acts)) $(id)?.addEventListener('click', () => acts[id]());
   for (const id of ['home', 'finer', 'own', 'shape', 'kept']) $(id).addEventListener('click', () => { if ($('menu').open) $('menu').close(); });
-  $('language').addEventListener('change', () => {
-    words.choose($('language').value).then(() => {
-      dress(burr, sessions.dressed());
-      course.speak();
-      watch.speak();
-    });
-  });
+  $('language').addEventListener('change', () => speak($('language').value));
   $('volume').addEventListener('input', () => sound.volume($('volume').valueAsNumber));
   $('mode').addEventListener('change', () => {
     const mode = $('mode').value;
@@ -473,6 +498,15 @@ function listen() {
     const name = $('case').value;
     if ($('menu').open) $('menu').close();
     sessions.end_then(() => sessions.open_case(name).catch(() => say(word('no_case', name), 12000)), () => { $('case').value = sessions.about.name; });
+  });
+}
+
+function speak(code) {
+  if (!words.languages().some((one) => one.code === code)) return;
+  words.choose(code).then(() => {
+    dress(burr, sessions.dressed());
+    course.speak();
+    watch.speak();
   });
 }
 

@@ -5,6 +5,7 @@ import {fit, is_lost, wanted_size} from '../common/canvas.js';
 import {show} from '../common/skin.js';
 
 const kAgain = 300, kAgainMost = 5000;  // between two tries to make it anew [ms]
+const kGiveWay = 2;                     // of the time of a picture, while ticks are left out
 const kFinest = 5000;                   // a picture for the report is as fine as it is after this time [ms]
 
 const $ = (id) => document.getElementById(id);
@@ -24,7 +25,7 @@ const svg = (kind, more = {}) => {
 };
 
 export class Picture {
-  // host: lost(), back(), attach(canvas), mark(name), ready(), drawn(fresh), aim(view), fail(error)
+  // host: lost(), back(), attach(canvas), mark(name), ready(), drawn(fresh), aim(view), busy(), fail(error)
   constructor(host) {
     this.host = host;
     this.view = null;        // the module
@@ -34,7 +35,7 @@ export class Picture {
     this.dirty = true;
     this.pictured = null;    // who waits for a picture of the canvas
     this.skin_whole = this.unseen = this.drew = false;  // unseen: a bone that shall be seen whole is not in the picture yet
-    this.before = 0;
+    this.before = this.took = 0;
     this.marks = [];         // of the target of the step
     this.lines = [];
     this.evidence = null;    // a ring of its own
@@ -108,10 +109,18 @@ export class Picture {
       }
       if (fit(this.canvas)) this.dirty = true;
       if (this.host.ready()) this.host.aim(view);
-      const took = this.drew ? now - this.before : 0;  // of the picture before, if the one after it follows at once
-      this.before = now;
+      if (this.drew) this.took = now - this.before;  // the picture before, until the browser asks for the next
+      this.drew = false;
+      // the picture gives way to the ticks
+      if (this.host.busy() && now - this.before < (1 + kGiveWay) * this.took) {
+        this.dirty ||= fresh;
+        if (fresh) this.host.drawn(fresh);
+        return;
+      }
+      const {took} = this;
       this.drew = this.dirty || fresh || this.pictured !== null || view.view_refined() === 0;
       if (!this.drew) return;
+      this.before = now;
       this.dirty = false;
       if (view.view_show(1e-3 * now, 1e-3 * took, 0) === 0) {
         if (is_lost(this.canvas)) return this.lose();

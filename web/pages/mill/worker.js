@@ -1,7 +1,8 @@
 // The worker of the page: the bone, its surface and the tick, 1000 times a second of its time.
 //
 // All ticks that are due are computed together, every 4 ms or so: a mouse has no motors, so nobody
-// feels that. Ticks that a busy machine has missed are left out and counted, never made up for.
+// feels that. Where a machine is busy, the surface waits first; then what is due is made up for, as far as that takes kCatchUpMs;
+// the ticks beyond are left out and counted.
 //
 //     page -> worker   start {compiled, voxel, bone, own, work, hidden, task, kept, redo}, next {aim}, command {what, value}, back {what},
 //                      press, take_back, pause {on}, hashes, rows {port}, note {kind, what, where, value}, changed, save {declared},
@@ -21,8 +22,11 @@ import {Skin, surface, tissues} from '../common/skin.js';
 import {begin_kept, forget_kept} from '../common/store.js';
 import {GoBack} from './go_back.js';
 
-const kMostTicks = 50;    // in one beat
+const kMostTicks = 50, kMostOfAll = 250;  // in one beat: always; where they take no longer than kCatchUpMs
+const kCatchUpMs = 25;
+const kLate = 12;         // ticks due in a beat that came late: the surface waits
 const kSkinMs = 4;        // for the surface, in each beat
+const kSkinWaits = 100;   // no longer than this [ms]
 const kBrick = 1028;      // bytes; web::ChangedBrick
 const kNoteEvery = 500;   // of what is known of the session [ms]
 const kFile = '/burr.mcap', kCopy = '/copy.mcap';  // PageRecorder
@@ -33,6 +37,8 @@ let paused = false, wanted = true, running = false;
 let work = 0;            // number of the bone
 let timer = 0;           // of the next beat; there is never more than one
 let begun = 0, done = 0, left_out = 0;
+let each_ms = 0.1;       // of a tick, lately
+let skinned = 0;         // when the surface was made last [ms]
 let kept = null, facts = null;   // the session in the browser's storage; what is known of it
 let streamed = 0, noted = 0;     // bytes of the recording that are there; when the facts were written
 let back = null;                 // undo, redo, reset
@@ -281,9 +287,10 @@ function beat() {
   try {
     const now = performance.now();
     let due = Math.floor(now - begun) - done - left_out;
-    if (due > kMostTicks) {
-      left_out += due - kMostTicks;
-      due = kMostTicks;
+    const late = due > kLate, most = Math.min(kMostOfAll, Math.max(kMostTicks, Math.floor(kCatchUpMs / each_ms)));
+    if (due > most) {
+      left_out += due - most;
+      due = most;
     }
     if (due > 0) {
       burr.core_step(due);
@@ -291,6 +298,7 @@ function beat() {
       done += back.step();
       facts.most = Math.max(facts.most ?? 0, burr.core_removed());
       stream();
+      each_ms += 0.1 * ((performance.now() - now) / due - each_ms);
       const each = Math.round(1e3 * (performance.now() - now) / due);
       took.set(each, (took.get(each) ?? 0) + due);
       timed += due;
@@ -300,11 +308,14 @@ function beat() {
       }
     }
     const until = performance.now() + kSkinMs;
-    while (performance.now() < until && skin.make_one()) { /* the next */ }
+    if (!late || until - skinned > kSkinWaits) {
+      skinned = until;
+      while (performance.now() < until && skin.make_one()) { /* the next */ }
+    }
     if (wanted) {
       wanted = false;
       const row = burr.bytes(burr.core_row(), burr.core_row_size()).slice();
-      skin.send({kind: 'state', row, ticks: done, left_out, ...shares()});
+      skin.send({kind: 'state', row, ticks: done, left_out, behind: burr.core_patches_due(), ...shares()});
     }
     timer = setTimeout(beat, 2);
   } catch (trouble) {
