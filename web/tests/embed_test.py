@@ -31,7 +31,7 @@ from lrs import Lrs
 SITE, COURSE, BURR = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]).resolve()
 PICTURES = pathlib.Path(sys.argv[4]) if len(sys.argv) > 4 else None
 
-AROUND = b"""<!doctype html><title>a school</title><body><iframe id="burr" width="940" height="520"></iframe><script>
+AROUND = b"""<!doctype html><title>a school</title><link rel="icon" href="data:,"><body><iframe id="burr" width="940" height="520"></iframe><script>
 window.heard = [];
 window.files = [];
 addEventListener('message', ({origin, data}) => {
@@ -48,6 +48,7 @@ def framed(browser):
     """A page of the same host is told what happens, and asks for the recording."""
     with Site(SITE, instead={"/around.html": AROUND}) as site:
         page = browser.open(site.url + "around.html")
+        page.wait("document.getElementById('burr') && window.kind", WAIT)
         page.run("document.getElementById('burr').src = 'mill/?language=en&mode=learn&case=block'")
         page.wait("kind('loaded').length > 0", WAIT)
         ready = page.run("kind('ready')[0]")
@@ -92,6 +93,7 @@ def strangers(browser):
     with Site(SITE) as site, Site(pathlib.Path(tempfile.gettempdir()), instead={"/around.html": AROUND}) as other:
         for more, told in (("", False), ("&parent=" + other.url, True), ("&parent=https://example.org", False)):
             page = browser.open(other.url + "around.html")
+            page.wait("document.getElementById('burr') && window.kind", WAIT)
             page.run(f"document.getElementById('burr').src = '{site.url}mill/?language=en{more}'")
             time.sleep(2)
             if told:
@@ -150,7 +152,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.server.seen.append((self.command, self.path, body))
         if self.server.down:
             return self.give(503)
-        heads = {name: self.headers[name] for name in ("Authorization", "X-Experience-API-Version", "Content-Type") if self.headers[name]}
+        heads = {name: self.headers[name] for name in ("Authorization", "X-Experience-API-Version", "Content-Type", "If-None-Match") if self.headers[name]}
         asked = urllib.request.Request(self.server.lrs.endpoint.rstrip("/") + self.path.removeprefix("/xapi"), body, heads, method=self.command)
         try:
             with urllib.request.urlopen(asked, timeout=30) as answer:
@@ -170,7 +172,7 @@ VERB = "http://adlnet.gov/expapi/verbs/"
 def put_document(school, path, query, value):
     secret = "Basic " + base64.b64encode(school.secret.encode()).decode()
     asked = urllib.request.Request(f"{school.url}xapi/{path}?{urllib.parse.urlencode(query)}", json.dumps(value).encode(),
-                                   {"Authorization": secret, "X-Experience-API-Version": "1.0.3", "Content-Type": "application/json"}, method="PUT")
+                                   {"Authorization": secret, "X-Experience-API-Version": "1.0.3", "Content-Type": "application/json", "If-None-Match": "*"}, method="PUT")
     urllib.request.urlopen(asked, timeout=30).close()
 
 
@@ -187,7 +189,7 @@ def launch(school, folder_url, unit, registration, mode):
 
 
 def mill_and_finish(page, pressed=True):
-    page.wait(f"{FRAME}.burr?.ready && {FRAME}.burr.loaded", WAIT)
+    page.wait(f"document.getElementById('burr') && {FRAME}.burr?.ready && {FRAME}.burr.loaded", WAIT)
     if not pressed:
         return
     page.run(f"{FRAME}.document.getElementById('card_close').click()")
@@ -232,7 +234,7 @@ def course(browser):
         units = [{"id": one.get("id"), "url": one.find("c:url", names).text, "move": one.get("moveOn")} for one in tree.findall("c:au", names)]
         check(len(units) == 5 and len({one["id"] for one in units}) == 5 and all(one["move"] == "Completed" for one in units), f"{len(units)} units")
         check(all((pathlib.Path(folder) / one["url"].split("?")[0]).is_file() for one in units), "each has its page in the zip")
-        (pathlib.Path(folder) / "back.html").write_text("<title>the course</title>")
+        (pathlib.Path(folder) / "back.html").write_text('<title>the course</title><link rel="icon" href="data:,">')
         unit = next(one for one in units if one["id"].endswith("block"))
         with Site(folder) as host, Lrs() as lrs:
             school = School(lrs)
@@ -245,8 +247,10 @@ def course(browser):
             check(page.run(f"{FRAME}.document.documentElement.lang") == "de", "the language is the learner's")
             page.picture(PICTURES and PICTURES / "cmi5.png")
             page.run("document.getElementById('leave').click()")
-            page.wait("document.title === 'the course'", WAIT)
-            check(True, "Leave goes back to the course")
+            end = time.monotonic() + WAIT
+            while "/back.html" not in host.asked and time.monotonic() < end:
+                time.sleep(0.2)
+            check("/back.html" in host.asked, "Leave goes back to the course")
             judge(said(school, one, 3), ["initialized", "completed", "terminated"], "a session that is done")
             page.close()
 
