@@ -95,6 +95,22 @@ TEST(KnownBones, ANerveThatIsSeenThroughNeedlesHolesIsNotFound) {
   EXPECT_EQ(ear.outcome("facial.mastoid-identified").value.value_or(-1), 0);
 }
 
+// What lies between counts, cells included: a nerve behind opened cells is not found. A quarter of this one's course lies beside
+// the antrum, which is wide, and is seen there whatever stands.
+TEST(KnownBones, ANerveUnderALayerIsFoundWhereTheLayerIsThin) {
+  BURR_NEEDS_DATA("known_bones/nerve.txt");
+  KnownBone ear("temporal-bone");
+  constexpr const char* kId = "facial.mastoid-identified";
+  ear.cut(known_line(kEar, "nerve cover 0.5"));
+  EXPECT_GT(*ear.outcome(kId).value, 0.9);
+  ear.cut(known_line(kEar, "nerve cover 0.9"));
+  EXPECT_TRUE(ear.met(kId)) << *ear.outcome(kId).value;
+  ear.cut(known_line(kEar, "nerve cover 2.0"));
+  EXPECT_FALSE(ear.met(kId)) << *ear.outcome(kId).value;
+  ear.cut("box 3.5 9 -8 27 14 20 ; -tube facial_nerve,_mastoid_part 4.25");
+  EXPECT_LE(*ear.outcome(kId).value, 0.25) << "under 3 mm";
+}
+
 TEST(KnownBones, AHoleInThePlateIsAsLargeAsItIs) {
   BURR_NEEDS_DATA("known_bones/nerve.txt");
   KnownBone ear("temporal-bone");

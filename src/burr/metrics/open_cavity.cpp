@@ -85,6 +85,26 @@ std::vector<std::uint8_t> flood(const VoxelBox& box, const Bone& before,
   return reached;
 }
 
+// Air that is open by an opened cell alone: it was there before the cut, and is neither near to what was removed nor wide.
+std::vector<std::uint8_t> cells_in(const VoxelBox& box, const Bone& before,
+                                   const std::vector<std::uint8_t>& open,
+                                   const std::vector<std::int32_t>& apart,
+                                   const OpenCavitySettings& settings) {
+  const double h = before.grid().voxel, deep = settings.cells / h, wide = settings.wide / h;
+  std::vector<std::uint8_t> cells(box.count()), removed(box.count()), balls(box.count());
+  for (std::size_t n = 0; n < cells.size(); ++n) {
+    const Ijk v = box.first + box.at(n);
+    cells[n] = before.field(v.x(), v.y(), v.z()) < volume::kIso;
+    removed[n] = open[n] != 0 && cells[n] == 0 && apart[n] > 0;
+    balls[n] = open[n] != 0 && apart[n] >= wide * wide;
+  }
+  const auto to_removed = squared_distances(box, removed, settings.threads);
+  const auto to_ball = squared_distances(box, balls, settings.threads);
+  for (std::size_t n = 0; n < cells.size(); ++n)
+    if (to_removed[n] <= deep * deep || to_ball[n] <= (wide + 1) * (wide + 1)) cells[n] = 0;
+  return cells;
+}
+
 }  // namespace
 
 OpenCavity::OpenCavity(const Bone& before, const Bone& after, const OpenCavitySettings& settings)
@@ -98,12 +118,19 @@ OpenCavity::OpenCavity(const Bone& before, const Bone& after, const OpenCavitySe
   const double least = (r + kBeforeCentre) * (r + kBeforeCentre), most = (r + 1) * (r + 1);
   std::vector<std::uint8_t> may_pass(box_.count());
   for (std::size_t n = 0; n < may_pass.size(); ++n) may_pass[n] = apart[n] >= least;
-  const std::vector<std::uint8_t> centres = flood(box_, before, may_pass);
+  std::vector<std::uint8_t> centres = flood(box_, before, may_pass);
+  const auto within = [&] {
+    const auto to_centre = squared_distances(box_, centres, settings.threads);
+    std::vector<std::uint8_t> out(box_.count());
+    for (std::size_t n = 0; n < out.size(); ++n) out[n] = to_centre[n] <= most;
+    return out;
+  };
+  const auto cells = cells_in(box_, before, within(), apart, settings);
+  for (std::size_t n = 0; n < centres.size(); ++n) centres[n] = centres[n] & ~cells[n] & 1;
   if (std::none_of(centres.begin(), centres.end(), [](std::uint8_t one) { return one != 0; }))
     return;
-  const auto to_centre = squared_distances(box_, centres, settings.threads);
-  open_.resize(box_.count());
-  for (std::size_t n = 0; n < open_.size(); ++n) open_[n] = to_centre[n] <= most;
+  open_ = within();
+  for (std::size_t n = 0; n < open_.size(); ++n) open_[n] = open_[n] & ~cells[n] & 1;
 }
 
 bool OpenCavity::has(const math::Vec3& p) const {
