@@ -282,9 +282,9 @@ void decompose(char32_t code, std::u32string& out) {
   constexpr char32_t kFirst = 0xAC00, kLast = 0xD7A3;  // syllables of Hangul
   if (code >= kFirst && code <= kLast) {
     const char32_t place = code - kFirst;
-    out += U'\u1100' + place / 588;
-    out += U'\u1161' + place % 588 / 28;
-    if (place % 28 != 0) out += U'\u11A7' + place % 28;
+    out += static_cast<char32_t>(0x1100 + place / 588);
+    out += static_cast<char32_t>(0x1161 + place % 588 / 28);
+    if (place % 28 != 0) out += static_cast<char32_t>(0x11A7 + place % 28);
   } else if (const std::uint16_t* row = row_of<3>(letters::kDecomposed, code)) {
     decompose(row[1], out);
     if (row[2] != 0) out += char32_t{row[2]};
