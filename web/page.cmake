@@ -216,5 +216,5 @@ set(package ${CMAKE_BINARY_DIR}/burr-core)
 file(GLOB_RECURSE package_files CONFIGURE_DEPENDS ${web_dir}/npm/*)
 add_custom_command(OUTPUT ${package}/package.json
   COMMAND Python3::Interpreter -B ${web_dir}/npm/pack.py ${CMAKE_BINARY_DIR}/web ${package} ${PROJECT_VERSION}
-  DEPENDS burr_npm ${codecs}/licences.txt ${package_files} ${PROJECT_SOURCE_DIR}/LICENSE COMMENT "The npm package: ${package}" VERBATIM)
+  DEPENDS burr_npm ${codecs}/licences.txt ${package_files} ${web_dir}/pages/common/zstd.mjs ${PROJECT_SOURCE_DIR}/LICENSE COMMENT "The npm package: ${package}" VERBATIM)
 add_custom_target(npm ALL DEPENDS ${package}/package.json)

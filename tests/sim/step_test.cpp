@@ -360,6 +360,15 @@ TEST(PushedHand, GoesEvenlyWhereItIsTold) {
   EXPECT_EQ(now.velocity, Vec3::Zero());
 }
 
+TEST(PushedHand, MovesFromWhereItWasPlacedAlsoWithoutATickBetween) {
+  device::PushedHand hand(rigid());
+  ASSERT_TRUE(hand.open().ok());
+  hand.place({Vec3(0, 0, 5), math::Quat::Identity()}, 0, 0);
+  hand.move({Vec3(0, 0, 4), math::Quat::Identity()}, 0, 0, 4);
+  for (const double z : {4.75, 4.5, 4.25, 4.0, 4.0})
+    EXPECT_EQ(hand.state(1e-3).world_from_tool.p, Vec3(0, 0, z));
+}
+
 TEST(PushedHand, YieldsWhereItsArmIsSoft) {
   device::PushedHand hand(device::ArmSettings{.mass = 0.1, .damping = 10, .stiffness = 500});
   ASSERT_TRUE(hand.open().ok());

@@ -1,5 +1,6 @@
 // burr-core: bone that is felt and milled tick by tick. README.md begins; index.d.mts says what each call takes and gives.
 import make from './burr_core.mjs';
+import {unzstd} from './zstd.mjs';
 
 const kNode = typeof process === 'object' && process.versions?.node !== undefined && typeof window === 'undefined';
 
@@ -14,23 +15,7 @@ async function bytes_of(file) {
   return answer.arrayBuffer();
 }
 
-// What unpacks the blocks of a .bone file: (bytes, size, take) -> take(the `size` bytes), or null.
-async function zstd() {
-  const module = await WebAssembly.compile(await bytes_of('zstd.wasm'));
-  const wasm = new WebAssembly.Instance(module, {env: {emscripten_notify_memory_growth() {}}}).exports;
-  return (bytes, size, take) => {
-    const from = wasm.malloc(bytes.length), to = wasm.malloc(Math.max(1, size));
-    try {
-      if (from === 0 || to === 0) return null;
-      new Uint8Array(wasm.memory.buffer).set(bytes, from);
-      if (wasm.ZSTD_decompress(to, size, from, bytes.length) !== size) return null;
-      return take(new Uint8Array(wasm.memory.buffer, to, size));
-    } finally {
-      wasm.free(from);
-      wasm.free(to);
-    }
-  };
-}
+const zstd = async () => unzstd(await WebAssembly.compile(await bytes_of('zstd.wasm')));
 
 // Compiled once; each call starts a program of its own, with a memory of its own.
 let parts = null;
@@ -47,11 +32,9 @@ export async function load() {
   return new Burr(module);
 }
 
-const kStride = (size) => size / 4;
-
 // Points, normals and tissues of surface::Vertex, and triangles: copies, which stay.
 function mesh_of(module, size, vertices, count, triangles, triangle_count) {
-  const floats = new Float32Array(module.HEAPU8.buffer, vertices, kStride(size) * count), step = kStride(size);
+  const floats = new Float32Array(module.HEAPU8.buffer, vertices, size / 4 * count), step = size / 4;
   const points = new Float32Array(3 * count), normals = new Float32Array(3 * count), tissues = new Uint8Array(count);
   const bytes = new Uint8Array(module.HEAPU8.buffer, vertices, size * count);
   for (let n = 0; n < count; ++n) {

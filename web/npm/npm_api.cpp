@@ -64,7 +64,7 @@ struct NpmBone {
   std::unique_ptr<volume::Bone> bone;
   std::string phantom;  // its source; empty: it is no phantom
   double voxel_mm = 0;
-  // what was asked for last
+  // What the last call of each function gave; JavaScript copies it.
   surface::Mesh mesh;
   std::vector<std::uint8_t> blob;
   std::vector<volume::Field> field;
@@ -265,6 +265,17 @@ Result<volume::TissueTable> tissues_of(const json& list) {
   return table;
 }
 
+template <class Value>
+std::vector<Value> of_all_voxels(const volume::Bone& bone,
+                                 Value (volume::Bone::*value)(int, int, int) const) {
+  const math::Ijk size = bone.grid().size;
+  std::vector<Value> all;
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i) all.push_back((bone.*value)(i, j, k));
+  return all;
+}
+
 // The grid that a field of numbers has; none: npm_why().
 std::optional<volume::Grid> grid_of(int x, int y, int z, double voxel_mm, const double* origin_mm) {
   constexpr int kMost = 2048;
@@ -389,21 +400,11 @@ EMSCRIPTEN_KEEPALIVE int npm_bone_blob_size(const NpmBone* box) {
 }
 // The whole field and the numbers of the tissues, x fastest.
 EMSCRIPTEN_KEEPALIVE const volume::Field* npm_bone_field(NpmBone* box) {
-  const volume::Bone& bone = *box->bone;
-  const math::Ijk size = bone.grid().size;
-  box->field.clear();
-  for (int k = 0; k < size.z(); ++k)
-    for (int j = 0; j < size.y(); ++j)
-      for (int i = 0; i < size.x(); ++i) box->field.push_back(bone.field(i, j, k));
+  box->field = of_all_voxels<volume::Field>(*box->bone, &volume::Bone::field);
   return box->field.data();
 }
 EMSCRIPTEN_KEEPALIVE const volume::TissueId* npm_bone_labels(NpmBone* box) {
-  const volume::Bone& bone = *box->bone;
-  const math::Ijk size = bone.grid().size;
-  box->labels.clear();
-  for (int k = 0; k < size.z(); ++k)
-    for (int j = 0; j < size.y(); ++j)
-      for (int i = 0; i < size.x(); ++i) box->labels.push_back(bone.tissue(i, j, k));
+  box->labels = of_all_voxels<volume::TissueId>(*box->bone, &volume::Bone::tissue);
   return box->labels.data();
 }
 // The surface: how many vertices (0 also where there is none), then surface::Vertex each, then the triangles.

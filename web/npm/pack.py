@@ -19,7 +19,7 @@ def main():
     about = json.loads((HERE / "package.json").read_text())
     about["version"] = version
     for name in about["files"]:
-        source = next((one / name for one in (HERE, built, built / "codecs", ROOT) if (one / name).exists()), None)
+        source = next((one / name for one in (HERE, built, built / "codecs", ROOT / "web/pages/common", ROOT) if (one / name).exists()), None)
         if source is None:
             sys.exit(f"burr: {name} of web/npm/package.json was not found")
         if source.is_dir():

@@ -45,7 +45,7 @@ FRAME = "document.getElementById('burr').contentWindow"
 
 
 def framed(browser):
-    """A page of the same host is told what happens, and asks for the recording."""
+    """A page of the same host gets messages about the session, and the recording when it asks."""
     with Site(SITE, instead={"/around.html": AROUND}) as site:
         page = browser.open(site.url + "around.html")
         page.wait("document.getElementById('burr') && window.kind", WAIT)
@@ -63,6 +63,12 @@ def framed(browser):
         page.run("ask({kind: 'recording'})")
         page.wait("files.length === 1", WAIT)
         check(page.run("kind('recording')[0].complete") is False, "the recording so far, and the session goes on")
+        # another frame of the same page is not the page around it
+        page.run("""new Promise((go) => { const other = document.createElement('iframe'); document.body.append(other);
+          const script = other.contentDocument.createElement('script');
+          script.textContent = "parent.document.getElementById('burr').contentWindow.postMessage({burr: 1, kind: 'language', code: 'de'}, '*')";
+          other.contentDocument.body.append(script); setTimeout(go, 2000); })""")
+        check(page.run(f"{FRAME}.document.documentElement.lang") == "en", "it takes no wish of another frame")
         page.run("ask({kind: 'language', code: 'sv'})")
         page.wait(f"{FRAME}.document.documentElement.lang === 'sv'", WAIT)
         page.run("ask({kind: 'finish'})")
@@ -89,7 +95,7 @@ def framed(browser):
 
 
 def strangers(browser):
-    """A page of another host is told nothing, unless the address names it; then it is."""
+    """A page of another host gets no message, unless ?parent= names that host."""
     with Site(SITE) as site, Site(pathlib.Path(tempfile.gettempdir()), instead={"/around.html": AROUND}) as other:
         for more, told in (("", False), ("&parent=" + other.url, True), ("&parent=https://example.org", False)):
             page = browser.open(other.url + "around.html")
@@ -103,7 +109,7 @@ def strangers(browser):
             page.run("ask({kind: 'recording'})")
             time.sleep(2)
             heard = page.run("heard.length")
-            check((heard > 0) is told, f"another host, {more or 'not named'}: {heard} messages")
+            check((heard > 0) is told, f"a page of another host, {more or 'which is not named'}, gets {heard} messages")
             page.close()
 
 
@@ -225,7 +231,7 @@ def judge(found, verbs, what):
 
 
 def course(browser):
-    """The zip as a system takes it in: its structure, a launch in each mode, what is said when."""
+    """The zip: its cmi5.xml, and the statements of a launch that is finished, left, only browsed, or not complete."""
     with tempfile.TemporaryDirectory() as folder:
         with zipfile.ZipFile(COURSE) as zipped:
             zipped.extractall(folder)

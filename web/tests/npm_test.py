@@ -48,6 +48,15 @@ def node(folder, script):
     return run(["node", "now.mjs"], folder)
 
 
+def printed(folder, package):
+    """The session that README.md and docs/use/npm.md show: it touches and mills."""
+    texts = [re.search(r"```js\n(.*?)```", path.read_text(), re.DOTALL)[1] for path in (package / "README.md", HERE.parents[1] / "docs/use/npm.md")]
+    for text in texts:
+        (folder / "printed.mjs").write_text(text + "\nconsole.log(Math.hypot(...session.row.force_n) > 0.1, session.row.removed_m3 > 1e-10, session.recording().length > 1000);\n")
+        said = run(["node", "printed.mjs"], folder).strip().split("\n")
+        check(said[-1] == "true true true", f"the session that is printed touches and mills: {said[-1]}")
+
+
 def touched(folder, package):
     """A spring of 1000 N/m: the force is as deep as the hand is, whatever the bone."""
     said = run(["node", package / "examples/touch.mjs"], folder)
@@ -203,6 +212,7 @@ def main():
         package = install(folder)
         if not package.is_dir():
             sys.exit("\n".join(bad))
+        printed(folder, package)
         touched(folder, package)
         milled(folder, package)
         round_trips(folder)

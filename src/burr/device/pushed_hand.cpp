@@ -23,7 +23,7 @@ Status PushedHand::open() {
 }
 
 void PushedHand::place(const math::Pose& there, double pedal, std::uint32_t buttons) BURR_RT {
-  goal_ = there;
+  goal_ = target_ = there;  // a move may follow before the next tick
   now_.pedal = pedal;
   now_.buttons = buttons;
   left_ = 0;

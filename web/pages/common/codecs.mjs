@@ -4,6 +4,8 @@
 // What they get may be damaged or made to do harm: each has a memory of its own, is asked for no more than the picture or block
 // that was announced, and gives null for anything else.
 
+import {unzstd} from './zstd.mjs';
+
 // A WebAssembly.Module of the site.
 export async function compiled(file) {
   const answer = await fetch(new URL(`../${file}`, import.meta.url));
@@ -11,26 +13,7 @@ export async function compiled(file) {
   return WebAssembly.compile(await answer.arrayBuffer());
 }
 
-// zstd: (bytes, size, take) -> take(the `size` bytes that they unpack to), or null.
-async function zstd() {
-  const module = await compiled('codecs/zstd.wasm');
-  const fresh = () => new WebAssembly.Instance(module, {env: {emscripten_notify_memory_growth() {}}}).exports;
-  let wasm = fresh();
-  return (bytes, size, take) => {
-    const from = wasm.malloc(bytes.length), to = wasm.malloc(Math.max(1, size));
-    try {
-      if (from === 0 || to === 0) return null;
-      new Uint8Array(wasm.memory.buffer).set(bytes, from);
-      if (wasm.ZSTD_decompress(to, size, from, bytes.length) !== size) return null;
-      return take(new Uint8Array(wasm.memory.buffer, to, size));
-    } finally {
-      wasm.free(from);
-      wasm.free(to);
-      if (wasm.memory.buffer.byteLength > kMostKept) wasm = fresh();  // a memory never shrinks
-    }
-  };
-}
-const kMostKept = 64 << 20;
+const zstd = async () => unzstd(await compiled('codecs/zstd.wasm'));
 
 // What a picture says of itself, before a codec takes memory for it.
 function head_jpeg_ls(view) {

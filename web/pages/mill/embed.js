@@ -42,7 +42,7 @@ export class Embed {
     this.told = JSON.stringify(figures);
     this.tell('figures', figures);
   }
-  // The session has ended while a copy was asked for: its whole recording is there now.
+  // The user has ended the session before the page around it got its recording: it gets the complete one.
   again() { if (this.wants) this.take({kind: 'recording'}); }
   // The recording has come. False: nobody around the page asked for it.
   give({file, complete, why}) {
