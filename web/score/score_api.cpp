@@ -189,13 +189,10 @@ ordered_json json_of(const report::Report& report) {
   out["machine"] = report.machine;
   out["head"] = report.head;
   out["gates"] = ordered_json::array();
-  std::size_t held = 0;
-  for (const report::ReportGate& gate : report.gates) {
-    held += gate.mark.tone == report::Tone::good ? 1 : 0;
+  for (const report::ReportGate& gate : report.gates)
     out["gates"].push_back(
         {{"text", gate.text}, {"when", gate.when}, {"mark", json_of(gate.mark)}});
-  }
-  out["held"] = words::say(words::Word::review_safety, held, report.gates.size());
+  out["held"] = report.safety;
   out["parts"] = ordered_json::array();
   for (const report::ReportPart& part : report.parts) {
     ordered_json one = {{"title", part.title}, {"met", part.met}, {"note", part.note}};

@@ -396,7 +396,7 @@ def own_scan(browser, site):
         ticks = page.run("burr.state.ticks")
         page.wait(f"burr.state.ticks > {ticks} + 200", WAIT)
         check(not page.run("burr.trouble"), "the page lives on")
-        ours = ("common/import.js", "common/import.css", "common/import_worker.js", "burr_import.mjs", "burr_import.wasm", "common/codecs.mjs",
+        ours = ("common/import.js", "common/import.css", "common/import_worker.js", "burr_import.mjs", "burr_import.wasm", "common/codecs.mjs", "common/zstd.mjs",
                 *(f"codecs/{one}" for one in ("pako.mjs", "charls.mjs", "charls.wasm", "openjpeg.mjs", "openjpeg.wasm", "zstd.wasm")))
         later = [url for _, url in page.requests[loaded:] if not url.startswith("blob:")]
         elsewhere = [url for url in later if not (url.startswith(site.url) and url.endswith(ours))]

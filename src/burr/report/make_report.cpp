@@ -120,11 +120,27 @@ std::vector<ReportGate> gates_of(const Scored& scored, const Scored* beside) {
 
 std::string met_of(const scoring::Total& total) {
   if (total.assessable == 0) return say(Word::report_none_open, total.items);
-  std::string text = say(Word::report_met, total.met, total.assessable);
-  if (total.too_early > 0) text += ", " + say(Word::report_more_early, total.too_early);
+  const bool decided = total.too_early < total.assessable;
+  std::string text = decided ? say(Word::report_met, total.met, total.assessable) : "";
+  if (total.too_early > 0)
+    text += (decided ? ", " : "") + say(Word::report_more_early, total.too_early);
   if (total.items > total.assessable)
     text += ", " + say(Word::report_more_open, total.items - total.assessable);
   return text;
+}
+
+// Of the items of safety alone.
+scoring::Total total_of_gates(const Scored& scored) {
+  scoring::Total total;
+  for (std::size_t n = 0; n < scored.score.outcomes.size(); ++n) {
+    if (!scored.judged.rubric.items[n].gate) continue;
+    const scoring::Standing standing = scoring::standing_of(scored.score.outcomes[n]);
+    ++total.items;
+    total.assessable += standing == scoring::Standing::not_assessable ? 0 : 1;
+    total.met += standing == scoring::Standing::met ? 1 : 0;
+    total.too_early += standing == scoring::Standing::too_early ? 1 : 0;
+  }
+  return total;
 }
 
 // Points only where somebody has compared every threshold with people.
@@ -325,6 +341,7 @@ Report common(const Scored& scored, const ReportSettings& settings) {
   report.no_patient = word(Word::report_no_patient);
   report.head = head_of(scored);
   report.gates = gates_of(scored, settings.beside);
+  if (!report.gates.empty()) report.safety = met_of(total_of_gates(scored));
   report.parts = parts_of(scored, settings);
   report.you = word(Word::report_you);
   report.machine = word(Word::report_machine);

@@ -126,6 +126,7 @@ struct Report {
   std::string unfinished;         // a sentence; empty: declared done
   std::vector<TextPair> head;     // "Case", "Mastoidectomy"
   std::vector<ReportGate> gates;  // what did harm comes first
+  std::string safety;             // their sum: "3 of 10 items met, 7 too early to say"; empty: none
   std::vector<ReportPart> parts;  // product, process
   std::string self;               // agreement with the learner's own marks, or that there are none
   std::vector<ReportAdvice> next;

@@ -134,9 +134,10 @@ std::string head_html(const Report& report) {
 
 std::string safety_html(const Report& report) {
   if (report.gates.empty()) return {};
-  std::string html =
-      fmt::format("<h2>{}</h2>\n<p class=\"soft small\">{}</p>\n<table id=\"safety\">\n",
-                  markup_text(word(Word::report_safety)), markup_text(word(Word::report_gates)));
+  std::string html = fmt::format(
+      "<h2>{}</h2>\n<p class=\"soft small\">{}</p>\n<p><b>{}</b></p>\n<table id=\"safety\">\n",
+      markup_text(word(Word::report_safety)), markup_text(word(Word::report_gates)),
+      markup_text(report.safety));
   if (!report.beside.empty())
     html += fmt::format("<thead><tr><th></th><th>{}</th><th>{}</th></tr></thead>\n",
                         markup_text(report.machine), markup_text(report.beside));

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 #include "shared/word_names.h"
 #include "window/parts/hud.h"
@@ -84,24 +82,19 @@ class Column {
   float u_;
 };
 
-// Each item of safety that is not met; of the others only how many.
+// Each item of safety that is not met, and how many are.
 void draw_safety(Column& column, const report::Report& report) {
   if (report.gates.empty()) return;
   column.heading(word(Word::report_safety));
   std::size_t met = 0;
-  std::map<std::pair<report::Tone, std::string>, std::size_t> open;
   for (const report::ReportGate& gate : report.gates) {
     if (gate.mark.tone == report::Tone::bad)
       column.marked(gate.mark.tone, gate.text,
                     gate.mark.word + (gate.when.empty() ? "" : ", " + gate.when));
     met += gate.mark.tone == report::Tone::good ? 1 : 0;
-    if (gate.mark.tone == report::Tone::open || gate.mark.tone == report::Tone::none)
-      ++open[{gate.mark.tone, gate.mark.word}];
   }
-  column.marked(met == report.gates.size() ? report::Tone::good : report::Tone::none,
-                say(Word::review_safety, met, report.gates.size()), "");
-  for (const auto& [mark, count] : open)
-    column.marked(mark.first, fmt::format("{} {}", count, mark.second), "");
+  column.marked(met == report.gates.size() ? report::Tone::good : report::Tone::none, report.safety,
+                "");
 }
 
 // What matters most, at the left: safety, totals, own marks, what to do next.
