@@ -10,7 +10,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
 out=$(realpath -m "${2:-build/packages}")
-for tool in cmake dpkg-shlibdeps help2man; do
+for tool in cmake dpkg-shlibdeps file help2man; do
   command -v $tool >/dev/null ||
     { echo "package.sh: needs $tool; scripts/install_packages.sh test installs it" >&2; exit 1; }
 done

@@ -61,7 +61,7 @@ void item_row(const Ui& ui, RateShown& shown, std::size_t n) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", word(kAnchors[k]));
   }
   if (here || !item.reason.empty()) {
-    if (here && shown.to_reason) ImGui::SetKeyboardFocusHere();
+    if (here && shown.to_reason) focus_next();
     static_cast<void>(text_field("##why", word(Word::rate_why), item.reason,
                                  ImGui::GetContentRegionAvail().x - 2 * u));
     if (ImGui::IsItemActivated()) shown.at = n;
@@ -87,7 +87,7 @@ RatePressed draw_who(Ui& ui, RateShown& shown) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(word(Word::rate_you));
   ImGui::SameLine();
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  if (ImGui::IsWindowAppearing()) focus_next();
   const bool entered = text_field("##rater", word(Word::rate_name), shown.rater, 300 * u);
   ImGui::Dummy({1, 4 * u});
   pressed.begin =

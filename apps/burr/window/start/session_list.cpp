@@ -80,7 +80,7 @@ void SessionList::name_row(KeptSession& kept, float x, float y, float w) {
   const float u = desk_.ui().unit();
   ImGui::SetCursorScreenPos({x, y + 5 * u});
   const bool focus = std::exchange(to_name_, false);
-  if (focus) ImGui::SetKeyboardFocusHere();
+  if (focus) focus_next();
   const bool entered = text_field("##name", word(Word::start_name_hint), name_, w);
   if (entered) {
     KeptSession unnamed = kept;

@@ -354,6 +354,11 @@ float Ui::width_of(Letter letter, const std::string& text) const {
 }
 float Ui::height_of(Letter letter) const { return font(letter)->FontSize; }
 
+void focus_next() {
+  ImGui::SetWindowFocus();
+  ImGui::SetKeyboardFocusHere();
+}
+
 bool text_field(const char* id, const char* hint, std::string& text, float width,
                 std::string (*complete)(const std::string&)) {
   std::vector<char> buffer(4096, '\0');

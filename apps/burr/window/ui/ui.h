@@ -132,6 +132,10 @@ class Ui {
   Uint64 last_ = 0;
 };
 
+// The next item gets the keyboard. (SetKeyboardFocusHere() of Dear ImGui 1.90.1, that of Debian 13, looks for it only in the
+// child window where the last one was.)
+void focus_next();
+
 // ImGui's field for a std::string; true when Enter was pressed in it.
 // complete: Tab replaces the text by what this makes of it; nullptr: Tab goes to the next field.
 [[nodiscard]] bool text_field(const char* id, const char* hint, std::string& text, float width,
