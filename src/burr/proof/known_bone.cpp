@@ -1,5 +1,7 @@
 #include "burr/proof/known_bone.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "burr/scenario/case.h"
@@ -47,11 +49,11 @@ Status KnownBone::cut(std::string_view shapes, Progress& progress) {
   return cut(*work, progress);
 }
 
-Status KnownBone::cut(const Work& work, Progress& progress) {
+Status KnownBone::cut(const Work& work, Progress& progress, const std::vector<std::string>& only) {
   CutBone made(*after_, *before_);
   made.restore();
   if (Status cut = made.cut(work); !cut) return cut;
-  return look(progress);
+  return look(progress, only);
 }
 
 Status KnownBone::cut_reference(Progress& progress) {
@@ -67,8 +69,17 @@ const scoring::Outcome* KnownBone::outcome(std::string_view id) const {
   return nullptr;
 }
 
-Status KnownBone::look(Progress& progress) {
-  auto made = scoring::score(rubric_, lesson_, *before_, *after_, nullptr, progress);
+Status KnownBone::look(Progress& progress, const std::vector<std::string>& only) {
+  scoring::Rubric rubric = rubric_;
+  std::vector<std::string> wanted = only;
+  for (std::size_t n = 0; n < wanted.size(); ++n)
+    if (const scoring::Item* item = rubric.item(wanted[n]); item != nullptr && !item->needs.empty())
+      wanted.push_back(item->needs);
+  if (!only.empty())
+    std::erase_if(rubric.items, [&](const scoring::Item& item) {
+      return std::find(wanted.begin(), wanted.end(), item.id) == wanted.end();
+    });
+  auto made = scoring::score(rubric, lesson_, *before_, *after_, nullptr, progress);
   if (!made) return made.error();
   score_ = std::move(*made);
   return fine();

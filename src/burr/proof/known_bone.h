@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
@@ -27,10 +28,10 @@
 namespace burr::proof {
 
 struct KnownBoneSettings {
-  std::string case_name;
+  std::string case_name = {};
   double voxel_mm = 0;            // 0: the case's
   std::uint32_t bone_number = 0;  // as of `--bone`; 0: the case's own bone
-  std::string rubric;             // empty: the case's
+  std::string rubric = {};        // empty: the case's
 };
 
 class KnownBone {
@@ -41,7 +42,9 @@ class KnownBone {
 
   // Cuts the untouched bone by this and nothing else, and scores it. Errors: of read_work(), of score().
   [[nodiscard]] Status cut(std::string_view shapes, Progress& progress);
-  [[nodiscard]] Status cut(const Work& work, Progress& progress);
+  // only: ids of the items to be judged, with those that they require; empty: all.
+  [[nodiscard]] Status cut(const Work& work, Progress& progress,
+                           const std::vector<std::string>& only = {});
   // The result that the case calls its reference.
   [[nodiscard]] Status cut_reference(Progress& progress);
 
@@ -57,7 +60,7 @@ class KnownBone {
   [[nodiscard]] const Places& places() const { return places_; }
 
  private:
-  [[nodiscard]] Status look(Progress& progress);
+  [[nodiscard]] Status look(Progress& progress, const std::vector<std::string>& only = {});
 
   scoring::Rubric rubric_;
   scenario::CaseLesson lesson_;
