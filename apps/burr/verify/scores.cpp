@@ -21,20 +21,22 @@ namespace burr::app {
 namespace {
 
 constexpr std::uint32_t kOtherBones = 3;  // of `--bone`, from 1
+constexpr std::size_t kQuickBones = 4;    // of each table, the first
 
 // One bone of a case at one voxel size.
 struct ScoredRound {
   double voxel_mm = 0;  // 0: the case's
   std::uint32_t bone = 0;
-  bool few = false;
+  std::size_t most = 0;  // known bones, the first; 0: all
 };
 
 std::vector<ScoredRound> rounds_of(const proof::KnownTable& table, bool quick) {
-  if (quick) return {{0, 0, true}};
-  std::vector<ScoredRound> rounds = {{0, 0, false}, {table.coarser_mm, 0, false}};
+  if (quick) return {{0, 0, kQuickBones}};
+  std::vector<ScoredRound> rounds = {{0, 0, 0}, {table.coarser_mm, 0, 0}};
   const auto work = scenario::read_case(table.case_name);
   if (work && workshop::has_other_bones(*work))
-    for (std::uint32_t bone = 1; bone <= kOtherBones; ++bone) rounds.push_back({0, bone, true});
+    for (std::uint32_t bone = 1; bone <= kOtherBones; ++bone)
+      rounds.push_back({0, bone, table.few});
   return rounds;
 }
 
@@ -75,7 +77,7 @@ void one_round(VerifyReport::Part& part, const proof::KnownTable& table, const S
   const double voxel = bone->before().grid().voxel * 1e3;
   const std::string name = fmt::format("{}.{}mm.bone{}", table.case_name, voxel, round.bone);
   std::size_t bones = table.bones.size();
-  if (round.few && table.few > 0) bones = std::min(bones, table.few);
+  if (round.most > 0) bones = std::min(bones, round.most);
   Worst worst;
   std::size_t checks = part.checks.size();
   for (std::size_t n = 0; n < bones && !interrupted(); ++n) {

@@ -1,4 +1,4 @@
-// proof/cut.h - cuts a bone by shapes (shape.h), and makes it again what it was.
+// proof/cut.h - cuts a bone by shapes (known_shape.h), and makes it again what it was.
 //
 //     proof::CutBone made(*bone, *before);      // two equal bones
 //     Status cut = made.cut(*work);  ...  made.restore();
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
-#include "burr/proof/shape.h"
+#include "burr/proof/known_shape.h"
 #include "burr/volume/bone.h"
 
 namespace burr::proof {

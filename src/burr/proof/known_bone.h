@@ -1,4 +1,4 @@
-// proof/known_bone.h - the bone of a built-in case, cut by a line of shapes (shape.h) and scored by the case's own rubric without
+// proof/known_bone.h - the bone of a built-in case, cut by a line of shapes (known_shape.h) and scored by the case's own rubric without
 // a recording. It asks whether a score is right: the right value follows from the numbers in the line.
 //
 //     auto jaw = proof::KnownBone::make({.case_name = "jaw"}, progress);
@@ -19,7 +19,7 @@
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
 #include "burr/proof/cut.h"
-#include "burr/proof/shape.h"
+#include "burr/proof/known_shape.h"
 #include "burr/scenario/lesson.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"

@@ -1,14 +1,14 @@
 // proof/known_tables.h - for each built-in case a table of bones with the right answer of every item that follows from the shapes.
 //
-// A table is a text, tables/CASE.txt, to be read and checked by hand; src/burr/proof/tables/README.md says how it is written.
+// A table is a text, tables/CASE.txt, to be read and checked by hand:
 //
 //     case jaw
 //     coarser 0.35                                                  the second voxel size [mm]
-//     few 6                                                         so many bones do for a quick run and for other bones
+//     few 8                                                         so many of the bones, the first, do for other bones of --bone
 //     let BED  cyl on implant_axis -6 0 0 on implant_axis 10 0 0 2   {BED} stands for this from here on
 //     left out: nerve.intact  it needs a recording
 //     bone the bed 0.5 mm too deep
-//       cut {BED} ; ...                                             shape.h
+//       cut {BED} ; ...                                             known_shape.h
 //       bed.depth    0.5         depth                              item, right value, tolerance (right.h)
 //       bed.cleared  gone({BED}) share
 //       teeth.intact met                                            the verdict alone
@@ -28,7 +28,7 @@ namespace burr::proof {
 
 struct KnownLine {
   std::string name;
-  std::string shapes;  // shape.h
+  std::string shapes;  // known_shape.h
   std::vector<Right> right;
 };
 
@@ -40,7 +40,7 @@ struct LeftOut {
 struct KnownTable {
   std::string case_name;
   double coarser_mm = 0;  // the second voxel size
-  std::size_t few = 0;    // of the bones, the first, for a quick run and for other bones; 0: all
+  std::size_t few = 0;    // of the bones, the first, for other bones of `--bone`; 0: all
   std::vector<KnownLine> bones;
   std::vector<LeftOut> left_out;
 };

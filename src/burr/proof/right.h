@@ -14,7 +14,7 @@
 #include <string>
 
 #include "burr/math/vec3.h"
-#include "burr/proof/shape.h"
+#include "burr/proof/known_shape.h"
 #include "burr/scoring/outcome.h"
 #include "burr/volume/bone.h"
 
@@ -75,7 +75,7 @@ struct Right {
 };
 inline constexpr scoring::Verdict kMet = scoring::Verdict::met, kUnmet = scoring::Verdict::unmet;
 
-// The regions here are lines of shape.h: what they cut is the region.
+// The regions here are lines of known_shape.h: what they cut is the region.
 
 // Share of the bone in a region that the shapes cut.
 [[nodiscard]] RightValue share_gone(std::string region);

@@ -1,4 +1,4 @@
-// proof/shape.h - shapes by their own formulas, and the line of text that cuts a bone with them. They share nothing with the
+// proof/known_shape.h - shapes by their own formulas, and the line of text that cuts a bone with them. They share nothing with the
 // regions and measures of burr, so what a bone cut by them must score follows from the numbers in the line.
 //
 //     auto work = proof::read_work("cyl 0 0 5 0 0 -11.2 2 ; - ball 3 0 -4 1", places);

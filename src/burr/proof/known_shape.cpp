@@ -1,4 +1,4 @@
-#include "burr/proof/shape.h"
+#include "burr/proof/known_shape.h"
 
 #include <fmt/format.h>
 

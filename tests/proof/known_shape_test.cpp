@@ -1,5 +1,5 @@
 // Shapes against what a ruler says, the language against every mistake, and a bone that is cut and made whole again.
-#include "burr/proof/shape.h"
+#include "burr/proof/known_shape.h"
 
 #include <gtest/gtest.h>
 
