@@ -73,8 +73,8 @@ TEST(RightValue, IsWhatAnIntegralByHandGives) {
   };
   EXPECT_NEAR(is(share_gone("box 0 0 0 10 10 10"), "half 1 0 0 2.5"), 0.25, 0.005);
   EXPECT_NEAR(is(volume_gone("ball 0 0 0 9"), "ball 0 0 0 3"), 36 * M_PI, 1);
-  EXPECT_NEAR(is(share_filled("box 0 0 17 10 10 4"), "+ half 0 0 -1 -16"), 0.25, 0.01);
-  EXPECT_NEAR(is(share_beside("box 0 0 17 10 10 4"), "+ box 0 0 17 20 10 4"), 0.5, 0.01);
+  EXPECT_NEAR(is(share_filled("box 0 0 16 10 10 2"), "+ half 0 0 -1 -15.5"), 0.25, 0.02);
+  EXPECT_NEAR(is(share_beside("box 0 0 16 10 10 2"), "+ box 0 0 16 20 10 2"), 0.5, 0.02);
   EXPECT_NEAR(is(least_gap("ball 0 0 0 20", from_tube("line", 1), 50), "box 0 0 8 6 6 6"), 4, 0.05);
   EXPECT_NEAR(is(least_gap("ball 0 0 0 20", from_oval(0, 4, 2), 50), "box 0 8 0 6 6 6"), 3, 0.05);
   EXPECT_NEAR(is(median_above("box 0 0 12 4 4 6", 9, 1), ""), 5, 0.1) << "15 - 9, less 1";

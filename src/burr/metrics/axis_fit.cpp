@@ -194,8 +194,8 @@ Around around(const Vec3& w) {
   return out;
 }
 
-// A pore of spongy bone at the end looks like the far side; lines beside the axis meet other pores. The innermost that end in bone,
-// kEnough or more, and within a voxel of the deepest, are averaged: beside a strut one line ends up to 0.7 voxel late. None: `end`.
+// A pore of spongy bone at the end looks like the far side; lines beside the axis meet other pores. Of the innermost that end in
+// bone, kEnough or more, the median: beside a strut one line ends up to 0.7 voxel late. None: `end`.
 AlongAxis::End end_beside(const AlongAxis& axis, double width, double entry, double reach,
                           const AlongAxis::End& end) {
   const Vec3 u = math::normalized(any_across(axis.w)), v = axis.w.cross(u);
@@ -208,11 +208,8 @@ AlongAxis::End end_beside(const AlongAxis& axis, double width, double entry, dou
       if (!other.through && other.l > end.l) ends.push_back(other.l);
     }
   if (ends.empty()) return end;
-  const double deepest = *std::max_element(ends.begin(), ends.end()), voxel = 4 * axis.step;
-  std::erase_if(ends, [&](double l) { return l <= deepest - voxel; });
-  double sum = 0;
-  for (const double l : ends) sum += l;
-  return {sum / static_cast<double>(ends.size()), false};
+  std::sort(ends.begin(), ends.end());
+  return {0.5 * (ends[(ends.size() - 1) / 2] + ends[ends.size() / 2]), false};
 }
 
 // Where no wall stands, the slices themselves say how wide they are.

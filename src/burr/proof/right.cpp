@@ -42,17 +42,21 @@ struct Sums {
 
 double reach_mm(const KnownScene& scene) { return kHalfBrick * scene.voxel_mm(); }
 
-// Bone (or, with `air`, what is none) in a region, and how much of it `hit` says.
+// Bone (or, with `air`, what is none) in a region, and how much of it lies where hit(place) is above 0. An eighth that a border
+// crosses counts by its depth, as if the border were square to it.
 template <class Hit>
 Sums sums_in(const KnownScene& scene, const Work& region, bool air, const Hit& hit) {
   Sums sums;
-  const double reach = reach_mm(scene);
+  const double reach = reach_mm(scene), edge = 0.5 * scene.voxel_mm();
+  const auto part = [edge](double depth_mm) { return std::clamp(0.5 + depth_mm / edge, 0.0, 1.0); };
+  const double mm = 2 * volume::kRamp * scene.voxel_mm() * (air ? -1 : 1);  // of a field's share
   each_part(
       scene.before, 2, [&](const Vec3& middle) { return region.gone(middle) > -reach; },
       [&](const Vec3& p, double depth) {
-        if ((depth < 0) != air || region.gone(p) < 0) return;
-        sums.in += 1;
-        if (hit(p)) sums.of_it += 1;
+        const double share = part(depth * mm) * part(region.gone(p));
+        if (share <= 0) return;
+        sums.in += share;
+        sums.of_it += share * part(hit(p));
       });
   return sums;
 }
@@ -72,23 +76,20 @@ RightValue with_region(std::string region, Then then) {
 
 RightValue share_gone(std::string region) {
   return with_region(std::move(region), [](const KnownScene& scene, const Work& in) {
-    return sums_in(scene, in, false, [&](const Vec3& p) { return scene.work.gone(p) >= 0; })
-        .share();
+    return sums_in(scene, in, false, [&](const Vec3& p) { return scene.work.gone(p); }).share();
   });
 }
 
 RightValue volume_gone(std::string region) {
   return with_region(std::move(region), [](const KnownScene& scene, const Work& in) {
-    const Sums sums =
-        sums_in(scene, in, false, [&](const Vec3& p) { return scene.work.gone(p) >= 0; });
+    const Sums sums = sums_in(scene, in, false, [&](const Vec3& p) { return scene.work.gone(p); });
     return sums.of_it * eighth_mm3(scene);
   });
 }
 
 RightValue share_filled(std::string region) {
   return with_region(std::move(region), [](const KnownScene& scene, const Work& in) {
-    return sums_in(scene, in, true, [&](const Vec3& p) { return scene.work.grown(p) >= 0; })
-        .share();
+    return sums_in(scene, in, true, [&](const Vec3& p) { return scene.work.grown(p); }).share();
   });
 }
 
@@ -96,7 +97,7 @@ RightValue share_beside(std::string region) {
   return with_region(std::move(region), [](const KnownScene& scene, const Work& in) {
     Work added;
     added.cut = scene.work.added;
-    return sums_in(scene, added, true, [&](const Vec3& p) { return in.gone(p) < 0; }).share();
+    return sums_in(scene, added, true, [&](const Vec3& p) { return -in.gone(p); }).share();
   });
 }
 
