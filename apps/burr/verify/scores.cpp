@@ -97,8 +97,8 @@ void one_round(VerifyReport::Part& part, const proof::KnownTable& table, const S
       {table.case_name, fmt::format("{}", voxel), fmt::format("{}", round.bone),
        fmt::format("{}", bones), fmt::format("{}", checks), worst.item,
        fmt::format("{:.3g} of {:.3g} {}", worst.off, worst.tolerance, worst.unit)});
-  // over the whole table every item is met by one bone and unmet by another
-  if (bones == table.bones.size() && !interrupted())
+  // over the whole table every item is met by one bone and unmet by another; coarse voxels cannot judge all items
+  if (bones == table.bones.size() && round.voxel_mm <= 0 && !interrupted())
     part.at_most(name + ".items-seen-from-one-side", 0,
                  static_cast<double>(proof::one_sided(bone->rubric(), table, all).size()), "");
 }

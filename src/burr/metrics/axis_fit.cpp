@@ -194,18 +194,21 @@ Around around(const Vec3& w) {
   return out;
 }
 
-// A pore of spongy bone at the end looks like the far side; lines beside the axis meet other pores. Of the innermost that end in
-// bone, kEnough or more, the median: beside a strut one line ends up to 0.7 voxel late. None: `end`.
+// A pore of spongy bone at the end looks like the far side; lines beside the axis meet other pores. The median of the axis and of the
+// innermost lines that end in bone, kEnough or more: beside a strut one line ends up to 0.7 voxel late. None: `end`.
 AlongAxis::End end_beside(const AlongAxis& axis, double width, double entry, double reach,
                           const AlongAxis::End& end) {
   const Vec3 u = math::normalized(any_across(axis.w)), v = axis.w.cross(u);
+  const double voxel = 4 * axis.step;
   std::vector<double> ends;
+  if (!end.through) ends.push_back(end.l);
   for (std::size_t ring = 0; ring < std::size(kRings) && ends.size() < kEnough; ++ring)
     for (const auto& [x, y] : kRound) {
       AlongAxis beside = axis;
       beside.from += kRings[ring] * width * (x * u + y * v);
       const AlongAxis::End other = beside.end(entry, reach);
-      if (!other.through && other.l > end.l) ends.push_back(other.l);
+      const bool near = end.through ? other.l > end.l : std::abs(other.l - end.l) < voxel;
+      if (!other.through && near) ends.push_back(other.l);
     }
   if (ends.empty()) return end;
   std::sort(ends.begin(), ends.end());
@@ -268,7 +271,7 @@ Assessed<AxisFit> axis_fit(const Bone& before, const Bone& after, const PlannedA
   const Vec3 off = out.entry - plan.entry;
   out.entry_off = math::norm(off - math::dot(off, along) * along);
   AlongAxis::End end = axis.end(*entry, length + far);
-  if (end.through) end = end_beside(axis, out.width, *entry, length + far, end);
+  end = end_beside(axis, out.width, *entry, length + far, end);
   out.through = end.through;
   out.apex = axis.at(end.l);
   out.depth = (end.l - *entry) * math::dot(out.inward, along);
