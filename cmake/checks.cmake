@@ -299,6 +299,10 @@ foreach(build asan.build asan.more_build tsan.build clang.build portable.aarch64
   endif()
 endforeach()
 
+# all known bones, at two voxel sizes and on other bones: of the full tier
+add_test(NAME house.verify_scores COMMAND burr_program --quiet verify scores)
+set_tests_properties(house.verify_scores PROPERTIES TIMEOUT 3600)
+
 include(cmake/tiers.cmake)
 
 # every claim about touch, within a minute; real bones where they are available

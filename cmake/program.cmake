@@ -24,7 +24,7 @@ if(BURR_APP)
   function(burr_of_program target)
     target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/apps/burr
       ${PROJECT_SOURCE_DIR}/third_party)
-    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_net burr_dataset burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
+    target_link_libraries(${target} PRIVATE burr burr_school burr_lrs burr_net burr_dataset burr_proof burr_scenes burr_options CLI11::CLI11 fmt::fmt spdlog::spdlog
       nlohmann_json::nlohmann_json PkgConfig::EPOXY PkgConfig::SDL2 PkgConfig::IMGUI)
     target_compile_definitions(${target} PRIVATE BURR_VERSION="${PROJECT_VERSION}")
     burr_common_headers(${target} <fmt/format.h> <nlohmann/json.hpp> ${ARGN})
@@ -48,8 +48,8 @@ if(BURR_APP)
   burr_of_program(burr_program <CLI/CLI.hpp>)
   target_link_libraries(burr_program PRIVATE burr_app)
   if(BURR_WARNINGS_ONLY)  # the files that are in no sanitizer's build, which clang++ reads too; it writes no code for them
-    set_source_files_properties(${BURR_APP} ${dataset_sources} PROPERTIES COMPILE_OPTIONS -fsyntax-only)
-    add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program> $<TARGET_OBJECTS:burr_dataset>)
+    set_source_files_properties(${BURR_APP} ${dataset_sources} ${proof_sources} PROPERTIES COMPILE_OPTIONS -fsyntax-only)
+    add_custom_target(warnings_of_program DEPENDS $<TARGET_OBJECTS:burr_program> $<TARGET_OBJECTS:burr_dataset> $<TARGET_OBJECTS:burr_proof>)
   endif()
   if(NOT BURR_WARNINGS_ONLY)  # it contains the reference code of `burr bench tick`, compiled like
                               # the library

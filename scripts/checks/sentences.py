@@ -25,7 +25,7 @@ NOT_GIVEN = {
     "tools": "a field of a recording, in the description of a column that recordings hold to the letter",
 }
 # Rooms whose sentences Python never sees: what they do is not in it.
-NOT_IN_PYTHON = {"device", "fit", "lrs", "net", "school", "sound", "surgeon", "dataset"}
+NOT_IN_PYTHON = {"device", "fit", "lrs", "net", "school", "sound", "surgeon", "dataset", "proof"}
 # Names in the other rooms that Python has no parameter for, and why it never meets the sentence.
 PYTHON_LACKS = {
     "accepted_labels": "Python checks no labels and accepts none",

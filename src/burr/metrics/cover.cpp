@@ -16,6 +16,7 @@ using math::Vec3;
 using volume::Bone;
 
 constexpr double kOpenBone = 0.2e-3, kOpenReach = 3e-3;  // [m]
+constexpr double kAcross = 0.5;  // cosine of a look to the normal that says how thick a layer is
 
 struct Job {
   const Solidity& solidity;
@@ -56,13 +57,18 @@ Seen look_at(const Job& job, const SurfaceSample& surface) {
   const Vec3 from = surface.voxel.cast<double>(), n = to_grid * surface.normal;
   Seen seen;
   seen.sample.surface = surface;
+  double least_across = kUnseen;  // [m]
   for (const Vec3& look : job.looks) {
     const Met met = walk(job.solidity, from, to_grid * look, n, job.ray);
     if (met.near >= kOpenBone) seen.open = false;
     if (!met.opened || met.removed < job.least_removed || met.bone > job.ray.most_bone) continue;
+    // a look that leaves aslant or through the structure itself crosses the layer at another place
+    if (math::dot(n, to_grid * look) >= kAcross && met.bone < least_across) {
+      least_across = met.bone;
+      seen.sample.thickness = met.across;
+    }
     if (met.bone >= seen.sample.cover) continue;
     seen.sample.cover = met.bone;
-    seen.sample.thickness = met.across;
     seen.sample.look = look;
   }
   const Plate plate = plate_along(job.solidity, from, n, job.ray.most_bone);

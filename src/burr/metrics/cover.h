@@ -1,15 +1,15 @@
 // metrics/cover.h - how much bone lies over a structure, seen through what was cut away.
 //
 //     tau(s) = min over looks w through the cavity of   integral sigma_after(s + l w) dl
-//     t(s)   = max(1/2, n . w) tau(s)                   w: the look that gave tau
+//     t(s)   = n . w  times the same minimum over the looks with n . w >= 1/2
 //
 // s: a sample of the structure's surface, n its normal; the looks are those of look_directions.h; sigma and rho
 // are those of solidity.h. A look w goes through the cavity if it crosses removed material: integral
 // of rho at least w0 = max(1 mm, 2 h). Without this condition half of a nerve is "found" before the
 // first cut, because nerves lie in canals and beside air. No such look: tau and t are infinite.
 // tau is the length of bone on the best line of sight, t the thickness of the layer across.
-// (The least product over all looks would not do for t: aslant looks halve the layer over the flank
-// of a tube.)
+// (The least product over all looks would not do for t: aslant looks halve the layer over the flank of a tube. Nor would the look
+// that gave tau: from the flank it goes through the tube and out at its crown, so half of a sinus under 2 mm counted as under 1 mm.)
 //
 // With `exposed`, the look must also come into the air that was opened (open_cavity.h), and what lies before that counts as
 // bone, cells included: what is found is exposed as an area, not seen along lines through cells.

@@ -111,6 +111,7 @@ std::vector<Measure> measures_of_corridor() {
        .quantity = length,
        .structure = true,
        .region = true,
+       .along = true,
        .guards = true,
        .limits = {{"least_mm", kMm, 2, 0, 10}}},
       {.name = "divided",

@@ -137,7 +137,12 @@ Outcome cavity(const Item& item, Workpiece& scene) {
     out = at_most(item, shape->uneven, item.limit("most_mm"), shape->error,
                   "unevenness of the floor (rms)");
   } else {
-    if (!shape->outline) return not_assessable(item, "the cavity has no rim");
+    if (!shape->outline) {
+      // all was cut to where the region ends: what has no edge keeps to none
+      Outcome none = not_assessable(item, "the cut has no edge near the planned one");
+      none.verdict = Verdict::unmet;
+      return none;
+    }
     out = at_most(item, *shape->outline, item.limit("most_mm"), shape->error,
                   "distance of the rim from the planned one (95 %)");
   }
@@ -145,7 +150,7 @@ Outcome cavity(const Item& item, Workpiece& scene) {
   return out;
 }
 
-// The least distance of what was cut to a structure.
+// The least distance of what was cut to a structure; with `along`, of the corridor too.
 Outcome clearance(const Item& item, Workpiece& scene) {
   const auto points =
       metrics::new_surface(scene.before(), scene.after(), scene.region(item.region));
@@ -157,6 +162,18 @@ Outcome clearance(const Item& item, Workpiece& scene) {
     if (d >= least) continue;
     least = d;
     nearest = point.place;
+  }
+  if (!item.along.empty()) {
+    // where a corridor leaves the bone it has no surface there, and is as near all the same
+    const auto& fit = scene.axis(item.along, item.region);
+    const double step = 0.5 * scene.before().grid().voxel;
+    for (double l = 0; fit && l <= fit->depth; l += step) {
+      const math::Vec3 at = fit->entry + l * fit->inward;
+      const double d = std::max(0.0, distance->at(at).distance - 0.5 * fit->width);
+      if (d >= least) continue;
+      least = d;
+      nearest = at;
+    }
   }
   const double enough = item.limit("least_mm");
   Outcome out =
