@@ -226,6 +226,14 @@ Result<Forgotten> forget(Store& store, const std::string& learner, const Recordi
               store.database().rows("SELECT id FROM learner WHERE id = $1 FOR UPDATE", {learner});
           !alone)
         return alone.error();
+    // nor marks of its sessions (ratings.cpp)
+    if (store.database().kind() == Database::Kind::postgres)
+      if (const auto alone = store.database().rows(
+              "SELECT pg_advisory_xact_lock(72372, hashtext(id)) FROM session "
+              "WHERE learner_id = $1 ORDER BY id",
+              {learner});
+          !alone)
+        return alone.error();
     const auto sessions = sessions_of(store, learner);
     if (!sessions) return sessions.error();
     done.sessions = sessions->size();
