@@ -120,10 +120,10 @@ Status check(Store& store, const Decision& one) {
 Result<std::string> who_decides(Store& store, const SigningKey* key) {
   if (key == nullptr) {
     if (store.database().kind() != Database::Kind::postgres)
-      return error(
-          Trouble::usage,
-          "no key says who decides; `school::enrol` with `school::Enrolled::kind` makes yours known to the "
-          "store");
+      return error(Trouble::usage,
+                   "no key says who decides; `school::enrol` with `school::Enrolled::kind` makes "
+                   "yours known to the "
+                   "store");
     const auto login = store.database().rows("SELECT CAST(session_user AS TEXT)");
     if (!login) return login.error();
     return text((*login)[0][0]);
