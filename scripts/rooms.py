@@ -81,7 +81,7 @@ ONLY = {
     ("metrics", "tick"): {"rows.h"},
     ("metrics", "tool"): {"burr_tool.h", "state.h", "cutting_places.h", "shaped_tool.h"},
     ("scoring", "record"): {"player.h", "course.h"},
-    ("school", "record"): {"identity.h"},
+    ("school", "record"): {"identity.h", "sealer.h", "session_info.h"},
     ("words", "scenario"): {"lesson.h"},
     ("guidance", "record"): {"course.h", "private_text.h"},
     ("guidance", "scoring"): {"step_done.h", "step_target.h"},

@@ -57,7 +57,7 @@ refuses 2 'use a day such as' $burr learner add --retain-until 2027-02-31
 for file in "$store" "${store%.sqlite}-names.sqlite"; do
   [ "$(stat -c %a "$file")" = 600 ] || complain "others may read $file: $(stat -c %a "$file")"
 done
-says 'is in the store' $burr learner enter kestrel-27 "$place/1.mcap"
+says 'in the store, not sealed: its recording has no seal' $burr learner enter kestrel-27 "$place/1.mcap"
 says '"stored":true' $burr learner enter kestrel-27 "$place/1.mcap" --json
 refuses 2 "says that it is kestrel-27's" $burr learner enter "$other" "$place/1.mcap"
 refuses 74 '' $burr learner enter kestrel-27 "$place/none.mcap"
@@ -70,6 +70,29 @@ refuses 2 'there is no such learner' $burr learner list nobody-1
 says added $burr learner cohort add "autumn 2026" kestrel-27 "$other"
 says "kestrel-27" $burr learner cohort list
 says removed $burr learner cohort remove "autumn 2026" "$other"
+
+# ---- stations; the audit
+says 'no station is enrolled' $burr station list
+says 'station station-3 is enrolled' $burr station enrol station-3
+[ "$(stat -c %a "$place/data/burr/station.key")" = 600 ] || complain "others may read the station's key"
+grep -q "$(tail -1 "$place/data/burr/station.key" | cut -d' ' -f2)" "$place/said" && complain "the secret of a key is printed"
+refuses 2 'the store knows this name already' $burr station enrol station-3
+refuses 2 'this key is of station-3' $burr station enrol station-4
+chmod 640 "$place/data/burr/station.key"
+refuses 2 'others can read or own this key' $burr station enrol station-3
+says 'is revoked' $burr station revoke station-3
+says ', revoked ' $burr station list
+refuses 2 'nothing of this name is enrolled now' $burr station revoke station-3
+rm "$place/data/burr/station.key"
+says 'the audit is whole' $burr learner check
+head=$(sed -n 's/^write down: //p' "$place/said")
+says 'decider a-berg is enrolled' $burr station enrol a-berg --decides
+says 'the audit is whole' $burr learner check --since "$head"
+cp "$store" "$place/before.sqlite"
+python3 -c 'import sqlite3, sys; s = sqlite3.connect(sys.argv[1]); s.execute("UPDATE audit SET what = ? WHERE number = 2", ("nothing",)); s.commit()' "$store"
+refuses 1 'row 2 of the audit does not give its hash' $burr learner check
+python3 -c 'import sqlite3, sys; a, b = (sqlite3.connect(one) for one in sys.argv[1:]); b.backup(a)' "$store" "$place/before.sqlite"
+rm "$place/before.sqlite"
 
 # ---- a locked store
 python3 - "$store" "$place/locked" <<'LOCK' &
@@ -139,6 +162,8 @@ found=$(grep -rlE 'kestrel-27|Lovelace|ada@example' "$place")
 [ -z "$found" ] || complain "still of the learner: $found"
 says "$other" $burr learner list
 refuses 2 'there is no such learner' $burr learner forget kestrel-27
+says 'of people who were forgotten' $burr learner check --since "$head"
+grep -q ' 0 of people' "$place/said" && complain "nobody was forgotten in the audit"
 
 # ---- a store of a newer burr; a server that is not there
 python3 -c 'import sqlite3, sys; s = sqlite3.connect(sys.argv[1]); s.execute("INSERT INTO schema_version VALUES (99, 0)"); s.commit()' "$store"

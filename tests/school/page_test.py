@@ -34,8 +34,10 @@ MARKUP = '<img src=x onerror="document.title=1"><script>document.title=2</script
 WAIT = 60  # [s]
 
 
-def run(*command):
-    done = subprocess.run([BURR, *map(str, command)], capture_output=True, text=True)
+def run(*command, data=None):
+    """data: the folder of burr's data, where keys lie; default: that of whoever runs the test."""
+    env = os.environ if data is None else {**os.environ, "XDG_DATA_HOME": str(data)}
+    done = subprocess.run([BURR, *map(str, command)], capture_output=True, text=True, env=env)
     assert done.returncode == 0, f"burr {command}: {done.stderr}"
     return done.stdout
 
@@ -58,9 +60,18 @@ def store_in(folder):
     return store, learners
 
 
+def seal(database, session, learner, given_ms):
+    """As if a station had sealed it: whoever owns the file owns all of it. `burr learner check` would find out."""
+    nonce = uuid.uuid4().hex
+    database.execute("INSERT INTO nonce VALUES (?, 'test-station', ?, 'practise', '', '', ?)", (nonce, learner, given_ms))
+    database.execute("INSERT INTO seal VALUES (?, ?, 'test-station', ?, ?, '', '', '', '')", (session, nonce, given_ms, given_ms + 1))
+    database.execute("UPDATE session SET standing = 'sealed' WHERE id = ?", (session,))
+
+
 def fill(store):
-    """16 people more, 8 of them surgeons, each with the second session's scores and other points; returns their sessions."""
+    """16 people more, 8 of them surgeons, each with the second session's scores and other points, sealed; returns their sessions."""
     database = sqlite3.connect(store)
+    database.execute("INSERT INTO station VALUES ('test-station', '', 'station', 0, '', NULL, NULL)")
     session = database.execute("SELECT * FROM session ORDER BY started_ms LIMIT 1").fetchone()
     scores = database.execute("SELECT * FROM score WHERE session_id = ?", (session[0],)).fetchall()
     made = []
@@ -71,6 +82,7 @@ def fill(store):
             new = str(uuid.uuid4())
             made.append(new)
             database.execute("INSERT INTO session VALUES (" + ",".join("?" * len(session)) + ")", (new, learner, session[2], session[3] + k + 1, *session[4:6], 0, 1, *session[8:]))
+            seal(database, new, learner, session[3] + k + 1)
             for score in scores:
                 id = str(uuid.uuid4())
                 points = (60 if n < 8 else 30) + 5 * (n % 4) + 3 * k
@@ -228,7 +240,8 @@ def check_figures(page, server, store, folder, sessions):
     standard = rows(store, "SELECT id FROM standard")[0][0]
     said = run("learner", "decide", "--store", store, "otter-2000")
     assert "proposal: reached" in said and "A person decides" in said, said
-    run("learner", "decide", "--store", store, "otter-2000", "--standard", standard, "--outcome", "pass", "--confirmed-by", "A. Berg", "--reason", "as proposed")
+    run("station", "enrol", "a-berg", "--decides", "--store", store, data=folder / "keys")
+    run("learner", "decide", "--store", store, "otter-2000", "--standard", standard, "--outcome", "pass", "--reason", "as proposed", data=folder / "keys")
     alone = subprocess.run([BURR, "learner", "decide", "--store", store, "otter-2001", "--standard", standard, "--outcome", "pass"], capture_output=True, text=True)
     assert alone.returncode != 0, "a decision without a person"
     same(rows(store, "SELECT count(*) FROM decision"), [(1,)], "decisions")
@@ -241,7 +254,7 @@ def check_figures(page, server, store, folder, sessions):
     check_views(page, {"agreement": "/agreement", "standards": "/standards"})
     go(page, "/standards")
     text = page.run("document.querySelector('main').innerText")
-    assert "pass, A. Berg" in text and "reached, in sessions 1 and 2" in text and "2 of 5" in text, text
+    assert "pass, a-berg" in text and "reached, in sessions 1 and 2" in text and "2 of 5" in text, text
 
 
 def check_practice(page, server, store):
@@ -390,7 +403,7 @@ def check_replay_answers(server, store, folder, session, recording):
     def with_uri(uri):
         with database:
             database.execute("INSERT INTO session SELECT 'odd', learner_id, case_hash, started_ms, seconds, mode, guided, finished, attempt, device, "
-                             "device_max_n, voxel_um, engine, recording_hash, ? FROM session WHERE id = ?", (uri, session))
+                             "device_max_n, voxel_um, engine, recording_hash, ?, standing FROM session WHERE id = ?", (uri, session))
         status, answer = line_of(server, "odd")
         with database:
             database.execute("DELETE FROM session WHERE id = 'odd'")

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "burr/people/random_stream.h"
+#include "burr/school/audit_check.h"
 #include "burr/school/decisions.h"
+#include "burr/school/enrolled.h"
 #include "burr/school/export.h"
 #include "burr/school/forget.h"
 #include "burr/school/outbox.h"
@@ -69,6 +72,8 @@ class RatingsTest : public ::testing::TestWithParam<Place> {
     one.finished = finished;
     one.scores[0].total = points;
     one.scores[0].gates_broken = gates;
+    if (sealed_ && !station_) station_.emplace(store(), folder_.str());
+    if (sealed_) one = station_->sealed(one);
     const auto entered = enter(store(), one);
     EXPECT_TRUE(entered) << entered.error().text;
     return session_id(one);
@@ -83,6 +88,9 @@ class RatingsTest : public ::testing::TestWithParam<Place> {
   Folder folder_;
   StorePlace place_;
   std::unique_ptr<Store> store_;
+  std::optional<test::MadeStation> station_;
+  bool sealed_ = true;  // the sessions
+  const SigningKey* station_key() const { return &station_->key(); }
 };
 INSTANTIATE_TEST_SUITE_P(Both, RatingsTest, ::testing::Values(Place::file, Place::server),
                          [](const auto& about) {
@@ -262,31 +270,63 @@ TEST_P(RatingsTest, ProposesAfterTwoSessionsInARowWithNoGateBroken) {
   EXPECT_TRUE(all->front().second.reached);
 }
 
+TEST_P(RatingsTest, WhatIsNotSealedProposesNothingAndSetsNoStandard) {
+  sealed_ = false;
+  add_learner("kestrel-27", "PGY1");
+  add_learner("otter-5", "surgeon");
+  for (int n = 1; n < 4; ++n) session("kestrel-27", n, 90);
+  session("otter-5", 1, 90);
+  const std::string id = *set_standard(store(), made_standard(60));
+  EXPECT_TRUE(proposal(store(), *standard_in(store(), id), "kestrel-27")->sessions.empty());
+  EXPECT_FALSE(groups_table(store(), kRubric, "product", {"PGY1"}, {"surgeon"}));
+  EXPECT_FALSE(marks_table(store(), kRubric, "product", Which::sealed));
+  EXPECT_TRUE(marks_table(store(), kRubric, "product"));  // the curve shows them
+  const auto key = SigningKey::make(folder_ / "a.key", "a-berg");
+  ASSERT_TRUE(enrol(store(), {key->name(), key->public_key(), "decider"}));
+  const auto none = decide(store(), {"kestrel-27", id, "pass", "", "because"}, &*key);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().text.find("no sealed, finished session"), std::string::npos);
+  for (const SessionRow& row : *sessions_of(store(), "")) EXPECT_EQ(row.standing, "no seal");
+}
+
 TEST_P(RatingsTest, ADecisionHasAPersonAReasonAStandardAndItsSessions) {
   add_learner("kestrel-27");
   add_learner("otter-5");
   const std::string first = session("kestrel-27", 1, 80), second = session("kestrel-27", 2, 80);
-  EXPECT_FALSE(decide(store(), {"kestrel-27", "any", "pass", "A. Berg", "well done"}));
+  const auto key = SigningKey::make(folder_ / "a.key", "a-berg"),
+             unknown = SigningKey::make(folder_ / "b.key", "b-smith"),
+             own = SigningKey::make(folder_ / "c.key", "kestrel-27"),
+             gone = SigningKey::make(folder_ / "d.key", "d-lind");
+  for (const auto* one : {&*key, &*own, &*gone})
+    ASSERT_TRUE(enrol(store(), {one->name(), one->public_key(), "decider"}));
+  ASSERT_TRUE(revoke(store(), "d-lind"));
+  EXPECT_FALSE(decide(store(), {"kestrel-27", "any", "pass", "", "well done"}, &*key));
   const std::string standard = *set_standard(store(), made_standard(60));
   EXPECT_EQ(count("SELECT count(*) FROM decision"), 0);  // a proposal is no decision
-  for (const Decision& bad : {Decision{"kestrel-27", standard, "passed", "A. Berg", "because"},
-                              Decision{"kestrel-27", standard, "pass", "", "because"},
-                              Decision{"kestrel-27", standard, "pass", "machine", "because"},
-                              Decision{"kestrel-27", standard, "pass", "kestrel-27", "because"},
-                              Decision{"kestrel-27", standard, "pass", "A. Berg", " "},
-                              Decision{"kestrel-27", "zz", "pass", "A. Berg", "because"},
-                              Decision{"nobody-1", standard, "pass", "A. Berg", "because"},
-                              Decision{"otter-5", standard, "pass", "A. Berg", "because"}})
-    EXPECT_FALSE(decide(store(), bad)) << bad.learner << " " << bad.outcome;
+  for (const Decision& bad : {Decision{"kestrel-27", standard, "passed", "", "because"},
+                              Decision{"kestrel-27", standard, "pass", "", " "},
+                              Decision{"kestrel-27", "zz", "pass", "", "because"},
+                              Decision{"nobody-1", standard, "pass", "", "because"},
+                              Decision{"otter-5", standard, "pass", "", "because"}})
+    EXPECT_FALSE(decide(store(), bad, &*key)) << bad.learner << " " << bad.outcome;
+  // a name that somebody types is no proof; nor is a key that the store does not know, or one's own
+  const Decision typed = {"kestrel-27", standard, "pass", "A. Berg", "because"};
+  for (const auto* one : {&*unknown, &*own, &*gone, &*station_key()})
+    EXPECT_FALSE(decide(store(), typed, one)) << one->name();
+  if (GetParam() == Place::file) {
+    EXPECT_FALSE(decide(store(), typed));
+  }
   EXPECT_EQ(count("SELECT count(*) FROM decision"), 0);
   ASSERT_TRUE(set_home_page(store(), "https://centre.example.org"));
-  const auto done = decide(store(), {"kestrel-27", standard, "fail", "A. Berg", "seen in the lab"});
+  const auto done = decide(store(), {"kestrel-27", standard, "fail", "", "seen in the lab"}, &*key);
   ASSERT_TRUE(done) << done.error().text;
   const auto kept = decisions(store(), "kestrel-27");
   ASSERT_EQ(kept->size(), 1U);
   EXPECT_EQ(kept->front().id, done->id);
   EXPECT_EQ(kept->front().outcome, "fail");  // a person may decide against the proposal
-  EXPECT_EQ(kept->front().confirmed_by, "A. Berg");
+  EXPECT_EQ(kept->front().confirmed_by, "a-berg");
+  EXPECT_TRUE(signed_by(key->public_key(), decision_words(kept->front()), done->signature));
+  ASSERT_TRUE(check_audit(store(), "")) << check_audit(store(), "").error().text;
   EXPECT_EQ(kept->front().reason, "seen in the lab");
   EXPECT_EQ(kept->front().standard, standard);
   EXPECT_EQ(kept->front().sessions, (std::vector<std::string>{first, second}));
@@ -298,7 +338,20 @@ TEST_P(RatingsTest, ADecisionHasAPersonAReasonAStandardAndItsSessions) {
       store().database().rows("SELECT statement_json FROM outbox WHERE state = 'waiting'");
   ASSERT_EQ(told->size(), 1U);
   EXPECT_NE(text((*told)[0][0]).find("verbs/failed"), std::string::npos);
-  EXPECT_EQ(text((*told)[0][0]).find("Berg"), std::string::npos);
+  EXPECT_EQ(text((*told)[0][0]).find("berg"), std::string::npos);
+  if (GetParam() ==
+      Place::server) {  // there a login says who it is, and that of the tables' owner is nobody
+    const auto by_login =
+        decide(store(), {"kestrel-27", standard, "pass", "A. Berg", "as proposed"});
+    ASSERT_FALSE(by_login);
+    EXPECT_NE(by_login.error().text.find("who confirms burr: this must be a person"),
+              std::string::npos);
+  }
+  ASSERT_TRUE(
+      store().database().run("UPDATE decision SET outcome = 'pass' WHERE outcome = 'fail'"));
+  const auto changed = check_audit(store(), "");
+  ASSERT_FALSE(changed);
+  EXPECT_NE(changed.error().text.find("its signature does not fit it"), std::string::npos);
 }
 
 TEST_P(RatingsTest, ANameOfWhoSetAStandardIsForgottenToo) {

@@ -12,11 +12,13 @@
 #include <vector>
 
 #include "burr/base/table_cell.h"
+#include "burr/school/audit_check.h"
 #include "burr/school/export.h"
 #include "burr/school/forget.h"
 #include "burr/school/pending.h"
 #include "burr/school/sessions.h"
 #include "burr/school/store_schema.h"
+#include "burr/school/uuid.h"
 #include "school/made.h"
 #include "support/postgres_server.h"
 
@@ -283,14 +285,28 @@ TEST_P(StoreTest, AnOlderStoreIsBroughtUpAndKeepsItsRows) {
   // as the first version of burr left it
   Database& in = store().database();
   add_learner("kestrel-27");
-  for (const Sql one :
-       {Sql("DROP INDEX session_of_learner"), Sql("DROP INDEX mark_of_session"),
-        Sql("DROP INDEX decision_on_learner"), Sql("DROP INDEX member_in_cohort"),
-        Sql("DROP INDEX outbox_next"), Sql("ALTER TABLE standard DROP COLUMN part"),
-        Sql("ALTER TABLE standard DROP COLUMN judges"),
-        Sql("ALTER TABLE standard DROP COLUMN set_by"),
-        Sql("ALTER TABLE standard DROP COLUMN made_ms"), Sql("ALTER TABLE decision DROP COLUMN id"),
-        Sql("DELETE FROM schema_version WHERE v >= 2")})
+  for (const Sql one : {Sql("DROP INDEX session_of_learner"),
+                        Sql("DROP INDEX mark_of_session"),
+                        Sql("DROP INDEX decision_on_learner"),
+                        Sql("DROP INDEX member_in_cohort"),
+                        Sql("DROP INDEX outbox_next"),
+                        Sql("ALTER TABLE standard DROP COLUMN part"),
+                        Sql("ALTER TABLE standard DROP COLUMN judges"),
+                        Sql("ALTER TABLE standard DROP COLUMN set_by"),
+                        Sql("ALTER TABLE standard DROP COLUMN made_ms"),
+                        Sql("ALTER TABLE decision DROP COLUMN id"),
+                        Sql("DROP TABLE seal"),
+                        Sql("DROP TABLE nonce_end"),
+                        Sql("DROP TABLE nonce"),
+                        Sql("DROP TABLE station"),
+                        Sql("ALTER TABLE session DROP COLUMN standing"),
+                        Sql("DROP INDEX audit_in_order"),
+                        Sql("ALTER TABLE audit DROP COLUMN number"),
+                        Sql("ALTER TABLE audit DROP COLUMN salt"),
+                        Sql("ALTER TABLE audit DROP COLUMN digest"),
+                        Sql("ALTER TABLE audit DROP COLUMN hash"),
+                        Sql("ALTER TABLE decision DROP COLUMN signature"),
+                        Sql("DELETE FROM schema_version WHERE v >= 2")})
     ASSERT_TRUE(in.run(one));
   open();
   EXPECT_EQ(count("SELECT max(v) FROM schema_version"), kSchema);
@@ -318,6 +334,53 @@ TEST_P(StoreTest, AStoreOfANewerBurrIsOnlyRead) {
   EXPECT_FALSE(kept->stored);
   std::vector<std::string> notices;
   EXPECT_EQ(waiting(place_, notices).size(), 1U);
+}
+
+// Anybody could write a file with scores: what is sealed waits as its recording, and a file has no seal.
+TEST_P(StoreTest, ASealedSessionWaitsAsItsRecording) {
+  add_learner("kestrel-27");
+  test::MadeStation station(store(), folder_.str());
+  const SessionRecord sealed = station.sealed(made_session("kestrel-27", "a"));
+  EXPECT_FALSE(session_from_json(to_json(sealed), "x")->seal);
+  EXPECT_FALSE(session_from_json(to_json(sealed), "x")->replayed);
+  ASSERT_TRUE(store().database().run("INSERT INTO schema_version (v, applied_ms) VALUES (99, 0)"));
+  const auto kept = enter_or_keep(place_, sealed, {folder_ / "a.mcap", "kestrel-27", ""});
+  ASSERT_TRUE(kept) << kept.error().text;
+  EXPECT_FALSE(kept->stored);
+  std::vector<std::string> notices;
+  const std::vector<Waiting> all = waiting(place_, notices);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_FALSE(all[0].session);
+  ASSERT_TRUE(all[0].recording);
+  EXPECT_EQ(all[0].recording->file, folder_ / "a.mcap");
+}
+
+TEST_P(StoreTest, ASealIsKeptOnceAndGoesWithItsLearner) {
+  add_learner("kestrel-27");
+  test::MadeStation station(store(), folder_.str());
+  const SessionRecord plain = made_session("kestrel-27", "a"), sealed = station.sealed(plain);
+  ASSERT_TRUE(enter(store(), plain));  // it came without its seal first
+  EXPECT_EQ(sessions_of(store(), "")->front().standing, standing::kNoSeal);
+  const auto entered = enter(store(), sealed);
+  ASSERT_TRUE(entered) << entered.error().text;
+  EXPECT_TRUE(enter(store(), sealed));
+  EXPECT_TRUE(sessions_of(store(), "")->front().sealed());
+  EXPECT_EQ(count("SELECT count(*) FROM seal"), 1);
+  SessionRecord not_again = sealed;
+  not_again.replayed = false;
+  not_again.recording_hash = sha1("another file");
+  EXPECT_FALSE(enter(store(), not_again));  // its nonce belongs to the first
+  // a longer recording takes no sealed session out
+  SessionRecord longer = made_session("kestrel-27", "b");
+  longer.goes_on_with = {sealed.recording_hash};
+  ASSERT_TRUE(enter(store(), longer));
+  EXPECT_EQ(sessions_of(store(), "")->size(), 2U);
+  ASSERT_TRUE(forget(store(), "kestrel-27", {}));
+  EXPECT_EQ(count("SELECT count(*) FROM seal"), 0);
+  EXPECT_EQ(count("SELECT count(*) FROM nonce"), 0);
+  const auto found = check_audit(store(), "");
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_GT(found->forgotten, 0);
 }
 
 TEST_P(StoreTest, SaysWhomItWouldDeleteAndDeletesNobodyByItself) {

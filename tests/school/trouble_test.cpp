@@ -5,19 +5,27 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "burr/school/audit_check.h"
+#include "burr/school/decisions.h"
+#include "burr/school/enrolled.h"
 #include "burr/school/forget.h"
 #include "burr/school/pending.h"
+#include "burr/school/ratings.h"
 #include "burr/school/sessions.h"
 #include "school/made.h"
 #include "support/postgres_server.h"
+#include "support/test_places.h"
 
 namespace burr::school {
 namespace {
@@ -459,6 +467,94 @@ TEST_F(ServerTrouble, TheServerKeepsNoFiguresOfAForgottenLearner) {
   EXPECT_EQ(held(), 0);
   ASSERT_TRUE(forget(*store, "otter-5", {}));
   EXPECT_EQ(held(), 0);
+}
+
+// The rights of docs/teach/school_rights.md, to the letter.
+constexpr Sql kRights[] = {
+    "CREATE ROLE station LOGIN",
+    "GRANT SELECT ON ALL TABLES IN SCHEMA public TO station",
+    "GRANT INSERT ON case_def, rubric, session, score, item, metric, self_mark, seal, outbox, "
+    "audit "
+    "TO station",
+    "GRANT INSERT (nonce, station, learner_id, mode, case_hash, rubric_hash) ON nonce TO station",
+    "GRANT INSERT (nonce, head) ON nonce_end TO station",
+    "GRANT UPDATE, DELETE ON outbox TO station",
+    "GRANT DELETE ON session, score, item, metric, self_mark TO station",
+    "CREATE ROLE rater LOGIN",
+    "GRANT SELECT ON ALL TABLES IN SCHEMA public TO rater",
+    "GRANT INSERT ON rater_mark, audit TO rater",
+    "CREATE ROLE decider LOGIN",
+    "GRANT SELECT ON ALL TABLES IN SCHEMA public TO decider",
+    "GRANT INSERT ON standard, decision, outbox, audit TO decider",
+};
+
+TEST_F(ServerTrouble, EachRoleHasItsRightsAndNoMore) {
+  auto owner = opened(place_);
+  std::ifstream page(test::source_dir() + "/docs/teach/school_rights.md");
+  std::string words{std::istreambuf_iterator<char>(page), {}};
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  for (const Sql one : kRights) {
+    ASSERT_TRUE(owner->database().run(one)) << one.text();
+    EXPECT_NE(words.find(std::string(one.text()) + ";"), std::string::npos)
+        << "the page has not: " << one.text();
+  }
+  const auto as = [this](const std::string& role) {
+    StorePlace place = place_;
+    place.address.replace(place.address.find("burr@"), 4, role);
+    return opened(place);
+  };
+  test::MadeStation made(*owner, folder_.str());
+  const SessionRecord sealed = made.sealed(made_session("kestrel-27", "sealed"));
+  auto station = as("station"), rater = as("rater"), decider = as("decider");
+  const auto entered = enter(*station, sealed);
+  ASSERT_TRUE(entered) << entered.error().text;
+  EXPECT_EQ(entered->standing, standing::kSealed);
+  // a station gets its nonces, by the server's clock alone
+  Seal asked = *sealed.seal;
+  const auto given = give_nonce(*station, asked);
+  ASSERT_TRUE(given) << given.error().text;
+  EXPECT_LT(std::abs(given->given_ms - now_ms()), 60'000);
+  EXPECT_TRUE(end_nonce(*station, given->nonce, "aa"));
+  const Marking marking = {session_id(sealed), "A. Berg", true, {{"floor", "met", ""}}};
+  EXPECT_TRUE(mark(*rater, marking));
+  Standard standard;
+  standard.rubric_hash = sealed.rubric.hash;
+  standard.part = "product";
+  standard.method = "Angoff";
+  standard.cut = 60;
+  standard.judges = 5;
+  standard.set_by = "A. Berg";
+  standard.text = "five judges";
+  const auto cut = set_standard(*decider, standard);
+  ASSERT_TRUE(cut) << cut.error().text;
+  const auto decided =
+      decide(*decider, {"kestrel-27", *cut, "pass", "somebody else", "as proposed"});
+  ASSERT_TRUE(decided) << decided.error().text;
+  EXPECT_EQ(decided->confirmed_by, "decider");  // the login, not what was typed
+  EXPECT_FALSE(decide(*station, {"kestrel-27", *cut, "fail", "", "because"}));
+  EXPECT_FALSE(decide(*rater, {"kestrel-27", *cut, "fail", "", "because"}));
+  EXPECT_FALSE(set_standard(*station, standard));
+  EXPECT_FALSE(enrol(*station, {"other-station", std::string(64, 'a')}));
+  for (Store* one : {station.get(), rater.get(), decider.get()})
+    for (const Sql change :
+         {Sql("UPDATE audit SET who = 'x'"), Sql("DELETE FROM audit"),
+          Sql("UPDATE rater_mark SET mark = 'unmet'"), Sql("DELETE FROM rater_mark"),
+          Sql("UPDATE decision SET outcome = 'fail'"), Sql("DELETE FROM decision"),
+          Sql("UPDATE session SET mode = 'exam'"), Sql("UPDATE seal SET head = 'x'"),
+          Sql("DELETE FROM seal"), Sql("UPDATE station SET key = 'x'"),
+          Sql("INSERT INTO nonce (nonce, station, learner_id, mode, case_hash, rubric_hash, "
+              "given_ms) "
+              "VALUES ('n', 'made-station', 'kestrel-27', 'exam', '0', '0', 1)"),
+          Sql("SELECT * FROM names.person")}) {
+      const auto done = one->database().rows(change);
+      ASSERT_FALSE(done) << change.text();
+      EXPECT_NE(done.error().text.find("permission denied"), std::string::npos)
+          << change.text() << ": " << done.error().text;
+    }
+  // a sealed session cannot be taken out: its seal holds it
+  EXPECT_FALSE(station->database().run("DELETE FROM session"));
+  const auto found = check_audit(*owner, "");
+  EXPECT_TRUE(found) << found.error().text;
 }
 
 TEST_F(ServerTrouble, AStationWithoutRightsToNamesEntersSessions) {

@@ -205,7 +205,7 @@ async function learner(id) {
   }
   out.push(el("h2", {}, say("sessions")));
   out.push(table(say("sessions"), [[say("started")], [say("case")], [say("attempt"), "number"], [say("mode")], [say("duration"), "number"], [say("product"), "number"], [say("process"), "number"], [say("gates"), "number"]],
-    all.sessions.map(one => [link(to("session", one.id), time(one.started_ms)), one.case, one.attempt, one.mode + ", " + say(one.guided ? "guided" : "free_of_help") + (one.finished ? "" : ", " + say("unfinished")),
+    all.sessions.map(one => [link(to("session", one.id), time(one.started_ms)), one.case, one.attempt, one.mode + ", " + say(one.guided ? "guided" : "free_of_help") + (one.finished ? "" : ", " + say("unfinished")) + ", " + say(one.sealed ? "sealed" : "unsealed"),
       say("minutes", { n: number(one.seconds / 60) }), metOf(part(one, "product")), metOf(part(one, "process")), part(one, "product") ? (part(one, "product").gates + (part(one, "process")?.gates ?? 0)) : "–"])));
   return out;
 }
@@ -224,7 +224,7 @@ async function session(id) {
   const all = await ask("session" + query({ id }));
   const out = [el("h1", {}, say("session") + " " + time(all.started_ms))];
   out.push(facts([[say("learner"), link(to("learner", all.learner), all.learner)], [say("case"), all.case], [say("attempt"), all.attempt],
-    [say("mode"), all.mode + ", " + say(all.guided ? "guided" : "free_of_help") + ", " + say(all.finished ? "finished" : "unfinished")],
+    [say("mode"), all.mode + ", " + say(all.guided ? "guided" : "free_of_help") + ", " + say(all.finished ? "finished" : "unfinished") + ", " + say(all.sealed ? "sealed" : "unsealed")],
     [say("duration"), say("minutes", { n: number(all.seconds / 60) })], [say("device"), all.device || "–"], [say("voxel"), number(all.voxel_um) + " µm"],
     [say("recording"), all.recording]]));
   out.push(el("p", {}, link(to("replay", id), say("replay"))));

@@ -358,6 +358,7 @@ Status run(const Options& options) {
     auto law = own_law(options.law, false);
     if (!law) return law.error();
     if (const Status same = sim::check_law(info, law->get(), options.file); !same) return same;
+    if (const Status texts = player.check_texts(); !texts) return texts;
     auto bone = workshop::bone_of(player, options.volume, progress());
     if (!bone) return bone.error();
     auto outcome = sim::replay(player, std::move(*bone), progress(), nullptr, law->get());

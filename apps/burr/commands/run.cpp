@@ -103,11 +103,13 @@ Result<Closed> mill_into_folder(Desk& desk, WindowSession& ready, const Options&
   Recording recording;
   recording.remember_scan_in(scan_list_by(desk.settings, desk.places().state));
   recording.belongs_to(options.work.identity);
+  const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
+  const auto sealer = sealer_for(desk, options.work.identity, work);
+  recording.sealed_by(sealer);
   const Status begun =
       recording.start(session, file, ready.volume, ready.import, session.hand().spec().name, false,
                       ready.spared, ready.work_case);
   if (!begun) return begun.error();
-  const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
   session_begins(desk, file, options.work.identity, work);
   WindowOptions with_recording = window;
   with_recording.warning = [&recording] { return recording.trouble(); };
@@ -127,6 +129,7 @@ Result<Closed> mill_into_folder(Desk& desk, WindowSession& ready, const Options&
   Result<bool> stays = true;
   if (done) stays = ask_own_marks(desk, ready, *with_recording.diary, window);
   const Status recorded = recording.finish(session);
+  tell_of_seal(desk, sealer);
   if (!left) return left.error();
   // one that ended early, on a full disk, counts with what it holds
   std::error_code nobody_asks;

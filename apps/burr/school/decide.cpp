@@ -3,15 +3,21 @@
 #include <fmt/core.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
+#include "burr/base/places.h"
 #include "burr/base/printable.h"
 #include "burr/school/ratings.h"
 #include "burr/school/sessions.h"
 #include "shared/counted.h"
 #include "shared/json_line.h"
+#include "shared/key_file.h"
 
 namespace burr::app {
 namespace {
@@ -74,7 +80,7 @@ Status show_proposals(school::Store& store, const school::Decision& asked, bool 
     if (!said) return said.error();
     if (!json)
       fmt::print(
-          "standard {}, {} of {}\n  {}\n  A person decides: --outcome, --confirmed-by, "
+          "standard {}, {} of {}\n  {}\n  A person decides, with a key or a login: --outcome, "
           "--reason.\n",
           one.id, one.part, base::printable(one.rubric), words_of(*said, one));
     Json row = {{"standard", one.id},
@@ -101,7 +107,15 @@ Status show_proposals(school::Store& store, const school::Decision& asked, bool 
 }
 
 Status record_decision(school::Store& store, const school::Decision& decision, bool json) {
-  const auto made = school::decide(store, decision);
+  const std::string file = key_file(users_places(), KeyOf::decider);
+  std::error_code nobody_asks;
+  std::optional<school::SigningKey> key;
+  if (std::filesystem::exists(file, nobody_asks)) {
+    auto read = school::SigningKey::read(file);
+    if (!read) return read.error();
+    key = std::move(*read);
+  }
+  const auto made = school::decide(store, decision, key ? &*key : nullptr);
   if (!made) return made.error();
   if (json)
     fmt::print("{}\n", json_line(json_of(*made)));

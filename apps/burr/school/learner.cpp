@@ -11,7 +11,6 @@
 #include <memory>
 #include <string>
 #include <system_error>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include "burr/base/printable.h"
 #include "burr/record/identity.h"
 #include "burr/record/player.h"
+#include "burr/school/audit_check.h"
 #include "burr/school/forget.h"
 #include "burr/school/practice.h"
 #include "burr/school/sessions.h"
@@ -111,15 +111,18 @@ Json json_of(const school::SessionRow& row) {
           {"guided", row.guided},
           {"finished", row.finished},
           {"attempt", row.attempt},
-          {"device", row.device}};
+          {"device", row.device},
+          {"standing", row.standing},
+          {"date_by", row.sealed() ? "store" : "file"}};
 }
 
 Status list_sessions(const Options& options, school::Store& store) {
   const auto rows = school::sessions_of(store, options.id);
   if (!rows) return rows.error();
   Json all = Json::array();
-  fmt::print("{:<12}{:<18}{:>8}  {:<10}{:<10}{:<12}{}\n", "day", "case", "attempt", "mode",
-             "guided", "ended", "items met");
+  fmt::print("{:<12}{:<18}{:>8}  {:<10}{:<10}{:<12}{:<21}{}\n", "day", "case", "attempt", "mode",
+             "guided", "ended", "seal", "items met");
+  bool all_sealed = true;
   for (const school::SessionRow& row : *rows) {
     const auto scores = school::scores_of(store, row.id);
     if (!scores) return scores.error();
@@ -137,11 +140,16 @@ Status list_sessions(const Options& options, school::Store& store) {
                                {"assessable", score.assessable},
                                {"gates_broken", score.gates_broken}});
     }
-    fmt::print("{:<12}{:<18}{:>8}  {:<10}{:<10}{:<12}{}\n", day_of(row.started_ms),
+    fmt::print("{:<12}{:<18}{:>8}  {:<10}{:<10}{:<12}{:<21}{}\n", day_of(row.started_ms),
                base::printable(row.case_name), row.attempt, row.mode, row.guided ? "guided" : "no",
-               row.finished ? "done" : "unfinished", met);
+               row.finished ? "done" : "unfinished", base::printable(row.standing), met);
+    all_sealed = all_sealed && row.sealed();
     all.push_back(std::move(one));
   }
+  if (!all_sealed)
+    fmt::print(
+        "\nA session that is not sealed has its day by the file's date, and counts for no "
+        "standard, decision or exam.\n");
   const auto practice = school::practice(store, options.id);
   if (!practice) return practice.error();
   Json proposed = Json::array();
@@ -307,6 +315,26 @@ Status run_audit(const Options& options) {
   return fine();
 }
 
+Status run_check(const Options& options) {
+  auto store = open_store(options);
+  if (!store) return store.error();
+  const auto found = school::check_audit(**store, options.title);
+  if (!found) return found.error();
+  fmt::print("the audit is whole: {}, {} of people who were forgotten, {} older than the chain\n",
+             counted(static_cast<std::size_t>(found->rows), "row"), found->forgotten, found->older);
+  fmt::print("the signatures fit: {}, {}\n",
+             counted(static_cast<std::size_t>(found->seals), "seal"),
+             counted(static_cast<std::size_t>(found->decisions), "decision"));
+  fmt::print("write down: {}\n", found->head.empty() ? "nothing yet" : found->head);
+  print_json(options.json, {{"rows", found->rows},
+                            {"forgotten", found->forgotten},
+                            {"older", found->older},
+                            {"seals", found->seals},
+                            {"decisions", found->decisions},
+                            {"head", found->head}});
+  return fine();
+}
+
 Status run_decide(const Options& options) {
   auto store = open_store(options);
   if (!store) return store.error();
@@ -414,10 +442,8 @@ void add_decide(CLI::App& command, Todo& todo) {
                      "of the centre: its id (`burr study standards`); without it all are shown");
   auto* outcome = decide->add_option("--outcome", of.outcome, "the decision: pass or fail")
                       ->check(CLI::IsMember({"pass", "fail"}));
-  for (const auto& [name, to, what] :
-       {std::tuple{"--confirmed-by", &of.confirmed_by, "with --outcome: your name"},
-        std::tuple{"--reason", &of.reason, "with --outcome: why, one line"}})
-    outcome->needs(decide->add_option(name, *to, what)->needs(outcome));
+  outcome->needs(
+      decide->add_option("--reason", of.reason, "with --outcome: why, one line")->needs(outcome));
   outcome->needs(decide->get_option("--standard"));
 }
 
@@ -431,6 +457,11 @@ void add(CLI::App& app, Todo& todo) {
   add_decide(*command, todo);
   auto options = std::make_shared<Options>();
   sub(*command, "audit", "who did what, and when", options, todo, run_audit);
+  options = std::make_shared<Options>();
+  sub(*command, "check", "whether the audit, the seals and the decisions are as they were written",
+      options, todo, run_check)
+      ->add_option("--since", options->title,
+                   "what an earlier check said to write down: it must still be there");
 }
 
 const Command command{70, add};

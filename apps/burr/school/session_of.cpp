@@ -15,6 +15,8 @@
 #include "burr/school/statements.h"
 #include "burr/school/store.h"
 #include "burr/school/uuid.h"
+#include "burr/sim/replay.h"
+#include "burr/sim/session_words.h"
 #include "burr/workshop/allowed.h"
 
 namespace burr::app {
@@ -104,6 +106,27 @@ std::int64_t ended_ms(const std::string& file) {
   return std::int64_t{1000} * about.st_mtim.tv_sec + about.st_mtim.tv_nsec / 1'000'000;
 }
 
+std::string shown(const std::string& recording) {
+  return base::printable(std::filesystem::path(recording).filename().string());
+}
+
+// Simulates the session again. True: all of it is the same. False: that cannot be told here, because ticks are missing,
+// a law of one's own took part, or another build recorded it and comes out differently. Error: it is not what happened.
+Result<bool> replayed(record::Player& player, std::unique_ptr<volume::Bone> bone,
+                      Progress& progress) {
+  const record::SessionInfo& info = player.info();
+  if (!sim::check_law(info, nullptr, player.path())) return false;
+  const auto outcome = sim::replay(player, std::move(bone), progress);
+  if (!outcome) return outcome.error();
+  if (outcome->gaps > 0) return false;
+  if (!outcome->first_different_tick) return true;
+  if (info.build != base::build() || info.burr_version != base::version()) return false;
+  return error(
+      fmt::format("{}: comes out differently at tick {} ({}), so it is not what happened, and "
+                  "is not entered; use the original file",
+                  shown(player.path()), *outcome->first_different_tick, outcome->difference));
+}
+
 }  // namespace
 
 school::SessionRecord record_of(const report::Scored& scored) {
@@ -152,22 +175,22 @@ school::SessionRecord record_of(const report::Scored& scored) {
 Result<school::SessionRecord> session_of(const std::string& recording, const std::string& learner,
                                          const std::string& rubric,
                                          const scenario::BoneRecipe& volume, Progress& progress) {
-  const std::string name = std::filesystem::path(recording).filename().string();
+  const std::string name = shown(recording);
   if (record::being_written(recording))
-    return error(
-        Trouble::interrupted,
-        fmt::format("{}: this session still goes on; enter it afterwards", base::printable(name)));
+    return error(Trouble::interrupted,
+                 fmt::format("{}: this session still goes on; enter it afterwards", name));
   auto judged = report::judged_by(recording, rubric);
   if (!judged) return judged.error();
   const auto& identity = judged->player->info().identity;
   const std::string said = identity ? identity->learner : std::string();
   if (said.empty() && learner.empty())
-    return error(Trouble::usage,
-                 fmt::format("{}: the recording does not say whose it is", base::printable(name)));
+    return error(Trouble::usage, fmt::format("{}: the recording does not say whose it is", name));
   if (!said.empty() && !learner.empty() && said != learner)
-    return error(Trouble::usage, fmt::format("{}: the recording says that it is {}'s, not {}'s",
-                                             base::printable(name), base::printable(said),
-                                             base::printable(learner)));
+    return error(Trouble::usage,
+                 fmt::format("{}: the recording says that it is {}'s, not {}'s", name,
+                             base::printable(said), base::printable(learner)));
+  auto seal = school::seal_of(recording, judged->player->info());
+  if (!seal) return seal.error();
   auto made = report::scored(std::move(*judged), volume, progress);
   if (!made) return made.error();
   school::SessionRecord record = record_of(*made);
@@ -177,6 +200,10 @@ Result<school::SessionRecord> session_of(const std::string& recording, const std
   record.recording_hash = *hash;
   record.recording_uri = school::uri_of(recording);
   record.started_ms = ended_ms(recording) - static_cast<std::int64_t>(1000 * record.seconds);
+  record.seal = std::move(*seal);
+  const auto same = replayed(*made->judged.player, std::move(made->before), progress);
+  if (!same) return same.error();
+  record.replayed = *same;
   // what the ticks say at the end
   if (const auto last = made->judged.player->tick_at(record.seconds); last) {
     record.metrics.push_back(

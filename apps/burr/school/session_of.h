@@ -14,6 +14,8 @@
 
 namespace burr::app {
 
+// Before it is believed the recording is simulated again, as by `burr replay --check`, and its seal is read; the store
+// checks the seal itself (school/enrolled.h).
 // learner: whose the session is; empty: as the recording says. rubric: a name or a file; empty: the built-in one of its
 // case. Error, Trouble::usage: the recording says another learner, or none. Trouble::interrupted: it is
 // still being written.

@@ -75,7 +75,8 @@ Result<school::study::Table> table_for(const StudySource& source, Asked asked,
 Result<std::vector<double>> last_marks(const StudySource& source) {
   const auto opened = open(source);
   if (!opened) return opened.error();
-  const auto table = school::marks_table(*opened->store, opened->rubric.hash, source.part);
+  const auto table =
+      school::marks_table(*opened->store, opened->rubric.hash, source.part, school::Which::sealed);
   if (!table) return table.error();
   std::map<std::string, double> last;
   for (std::size_t n = 0; n < table->rows.size(); ++n) {

@@ -69,7 +69,8 @@ Json brief(const school::SessionRow& session) {
           {"mode", session.mode},
           {"seconds", session.seconds},
           {"guided", session.guided},
-          {"finished", session.finished}};
+          {"finished", session.finished},
+          {"sealed", session.sealed()}};
 }
 
 // ---- views

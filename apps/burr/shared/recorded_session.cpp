@@ -27,8 +27,8 @@ Status Recording::start(sim::Session& session, const std::string& file,
   record::Identity who = identity_;
   if (const std::string rubric = work_case ? report::rubric_of(*work_case) : ""; !rubric.empty())
     if (const auto read = scoring::read_rubric(rubric)) who.rubric_hash = read->text_hash;
-  const workshop::About about{volume,    import.format, motion,     embed,   spared,
-                              work_case, who,           scan_list_, earlier_};
+  const workshop::About about{volume,    import.format, motion,     embed,    spared,
+                              work_case, who,           scan_list_, earlier_, sealer_};
   file_ = file;
   rate_hz_ = session.settings().servo.rate_hz;
   auto begun =

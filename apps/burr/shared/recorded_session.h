@@ -37,6 +37,8 @@ class Recording {
   void belongs_to(record::Identity identity) { identity_ = std::move(identity); }
   // Call it before start(): the recording that this one goes on with, in the same file.
   void goes_on_with(std::shared_ptr<const record::EarlierPart> part) { earlier_ = std::move(part); }
+  // Call it before start(): who seals the recording; nullptr: nobody.
+  void sealed_by(std::shared_ptr<record::Sealer> sealer) { sealer_ = std::move(sealer); }
   // motion: burr's own name, "pocket" or "hand path". embed: writes the bone into the file. spared:
   // tissues that the case forbids to cut; none: those that the table of tissues marks. work_case:
   // written into the file, so that a score can be computed from it.
@@ -67,6 +69,7 @@ class Recording {
   bool stopped_ = false, ending_ = false;
   record::Identity identity_;
   std::shared_ptr<const record::EarlierPart> earlier_;
+  std::shared_ptr<record::Sealer> sealer_;
   std::unique_ptr<record::Recorder> recorder_;
   std::optional<record::Diary> diary_;
   double rate_hz_ = 0;

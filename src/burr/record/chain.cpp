@@ -52,7 +52,7 @@ Status check_chain(Player& player, Progress& progress) {
                       "checking the ticks");
     }
   }
-  return fine();
+  return player.check_texts();
 }
 
 }  // namespace burr::record

@@ -6,6 +6,9 @@
 // them again from the values that were read, of both hands. So a force, a pose or a volume that somebody
 // changed in the file is found without the bone and without simulating anything.
 //
+// The texts (session, commands, view, course, events) are compared with the sums in the account at the end of a
+// finished recording (record/text_sums.h).
+//
 // What it does not show: a file whose hashes were computed again too. Only a replay on the bone finds that
 // (sim/replay.h). The times of a tick, the tool and the undone volume are not part of the hash.
 // Thread: as Player. Cost: 1.8 us a tick, reading included (a virtual core, 2026-11-30).
@@ -34,8 +37,8 @@ class Chain {
   std::uint64_t last_ = 0, believed_ = 0;
 };
 
-// Reads all ticks. Error: the first tick that was changed; ticks that are missing though nothing was
-// dropped or damaged, so somebody took them out; or progress was cancelled.
+// Reads all ticks and texts. Error: the first tick that was changed; ticks that are missing though nothing was
+// dropped or damaged, so somebody took them out; the topic whose texts were changed; or progress was cancelled.
 [[nodiscard]] Status check_chain(Player& player, Progress& progress);
 
 }  // namespace burr::record

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "burr/record/mcap/packed.h"
+#include "burr/record/sealer.h"
 
 namespace burr::record {
 namespace {
@@ -53,7 +54,7 @@ Status copy_beginning(const McapReader& from, McapWriter& to, std::string_view w
     if (Status added = to.add(channel); !added.ok()) return added;
   for (std::size_t i = 0; i < from.metadata().size(); ++i) {
     const std::string& name = from.metadata()[i].name;
-    if (!without.empty() && name == without) continue;
+    if (name == kSealName || (!without.empty() && name == without)) continue;
     if (const auto pairs = from.read_metadata(i))
       if (Status added = to.add_metadata(name, *pairs); !added.ok()) return added;
   }

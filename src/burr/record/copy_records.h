@@ -13,7 +13,8 @@
 
 namespace burr::record {
 
-// What stands before the chunks. without: the name of metadata that is left out; "": none.
+// What stands before the chunks, but for a seal, which is about the bytes of that file alone. without: the name of
+// metadata that is left out; "": none.
 [[nodiscard]] Status copy_beginning(const McapReader& from, McapWriter& to,
                                     std::string_view without = "");
 // One chunk with its indexes, if it is good.

@@ -17,6 +17,7 @@
 #include "burr/record/recording_stats.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
+#include "burr/record/text_sums.h"
 
 namespace burr::record {
 
@@ -29,6 +30,7 @@ struct EarlierPart {
   // Where the bone differs from the one that the recording began with.
   std::unordered_map<volume::BrickIndex, BrickContent> bricks;
   std::uint64_t batch = 0;  // the last one of the changes
+  TextSums sums;            // of its texts
   RecordingStats account;   // of what is in the file, and of what is missing in it
 };
 

@@ -82,8 +82,10 @@ Status Pen::write_beginning(const SessionInfo& info, const volume::Bone* embed) 
             writer_->add_attachment(kBoneAttachment, kBoneMediaType, bone_to_blob(*embed));
         !added.ok())
       return added;
-  writer_->add_message((*ids)[0], 1, 0, as_bytes(to_json(info)));
   name_channels(*ids);
+  const std::string session = to_json(info);
+  add_to(sums_, kSession.name, as_bytes(session));
+  writer_->add_message(session_channel_, 1, 0, as_bytes(session));
   return writer_->close_chunk();
 }
 
@@ -123,6 +125,7 @@ void Pen::name_channels(const ChannelIds& ids) {
     if (name == kViews.name) view_channel_ = ids[i];
     if (name == kCourse.name) course_channel_ = ids[i];
     if (name == kSecond.name) second_channel_ = ids[i];
+    if (is_summed(name)) summed_[ids[i]] = kTopics[i].name;
   }
 }
 
@@ -154,17 +157,31 @@ Status Pen::drain(bool last) {
 Status Pen::drain_last(bool stopped) {
   if (Status drained = drain(true); !drained.ok()) return drained;
   put_event(stopped ? "stopped" : "finished");
+  // the event must be in the file before the account says what is in the file, and the seal that this is all
+  if (Status written = write_chunk(); !written.ok()) return written;
+  if (Status put = put_account(); !put.ok()) return put;
+  return sealer_ ? put_seal() : fine();
+}
+
+Status Pen::put_account() {
   const auto number = [](std::uint64_t value) { return fmt::format("{}", value); };
-  return writer_->add_metadata(kAccountName, {{"ticks", number(account_.ticks)},
-                                              {"wishes", number(account_.commands)},
-                                              {"brick_rows", number(account_.brick_rows)},
-                                              {"keyframes", number(account_.keyframes)},
-                                              {"views", number(account_.views)},
-                                              {"events", number(account_.events)},
-                                              {"dropped_ticks", number(account_.dropped_ticks)},
-                                              {"dropped_wishes", number(account_.dropped_commands)},
-                                              {"dropped_bricks", number(account_.dropped_bricks)},
-                                              {"dropped_notes", number(account_.dropped_notes)}});
+  mcap::Pairs account = {{"ticks", number(account_.ticks)},
+                         {"wishes", number(account_.commands)},
+                         {"brick_rows", number(account_.brick_rows)},
+                         {"keyframes", number(account_.keyframes)},
+                         {"views", number(account_.views)},
+                         {"events", number(account_.events)},
+                         {"dropped_ticks", number(account_.dropped_ticks)},
+                         {"dropped_wishes", number(account_.dropped_commands)},
+                         {"dropped_bricks", number(account_.dropped_bricks)},
+                         {"dropped_notes", number(account_.dropped_notes)}};
+  for (const auto& [topic, sum] : sums_) account[kSumOf + topic] = hex(sum);
+  return writer_->add_metadata(kAccountName, account);
+}
+
+Status Pen::put_seal() {
+  const auto seal = sealer_->end(sealed_file_, writer_->size());
+  return seal ? writer_->add_metadata(kSealName, *seal) : fine();
 }
 
 Status Pen::finish() {
@@ -220,6 +237,8 @@ std::uint64_t Pen::time_ns(std::uint64_t tick) const {
 }
 
 void Pen::put(std::uint16_t channel, std::uint64_t tick, ByteSpan message) {
+  if (const auto text = summed_.find(channel); text != summed_.end())
+    add_to(sums_, text->second, message);
   writer_->add_message(channel, ++sequence_[channel], time_ns(tick), message);
 }
 

@@ -29,7 +29,9 @@
 #include "burr/record/mcap/mcap_writer.h"
 #include "burr/record/recording_stats.h"
 #include "burr/record/schema.h"
+#include "burr/record/sealer.h"
 #include "burr/record/session_info.h"
+#include "burr/record/text_sums.h"
 #include "burr/record/waiting_notes.h"
 #include "burr/rt/ring.h"
 #include "burr/tick/rows.h"
@@ -66,11 +68,17 @@ class Pen {
   // Called after each chunk that was given to the kernel.
   void set_on_chunk(std::function<void()> what) { on_chunk_ = std::move(what); }
 
+  // file: the place of the recording. Its seal comes after the account.
+  void set_sealer(std::shared_ptr<Sealer> sealer, std::string file) {
+    sealer_ = std::move(sealer);
+    sealed_file_ = std::move(file);
+  }
+
   // The session begins now: pauses are counted from here.
   void session_begins() { last_write_ = std::chrono::steady_clock::now(); }
   // Writes what waits: one chunk, and a part of a keyframe.
   [[nodiscard]] Status drain() { return drain(false); }
-  // Everything that waits, the keyframe, and the account. stopped: the session ended before its time.
+  // Everything that waits, the keyframe, the account and the seal. stopped: the session ended before its time.
   [[nodiscard]] Status drain_last(bool stopped);
   // Summary and footer.
   [[nodiscard]] Status finish();
@@ -100,6 +108,8 @@ class Pen {
   void name_channels(const ChannelIds& ids);
   [[nodiscard]] std::uint64_t time_ns(std::uint64_t tick) const;
   void put(std::uint16_t channel, std::uint64_t tick, ByteSpan message);
+  [[nodiscard]] Status put_account();
+  [[nodiscard]] Status put_seal();
   void take_ticks();
   [[nodiscard]] std::size_t rows_per_message() const;
   void take_second(std::uint64_t until);
@@ -123,6 +133,10 @@ class Pen {
                 second_channel_ = 0;  // 0: no second hand
   WaitingNotes notes_;
   std::map<std::uint16_t, std::uint32_t> sequence_;
+  std::map<std::uint16_t, const char*> summed_;  // channels of texts, with their topics
+  TextSums sums_;                                // of the texts so far
+  std::shared_ptr<Sealer> sealer_;
+  std::string sealed_file_;
 
   BytesOut message_;
   RecordingStats account_;

@@ -46,6 +46,7 @@ void Pen::take_up(const SessionInfo& asked, const EarlierPart& earlier) {
   batch_ = earlier.batch;
   changed_since_keyframe_ = !mirror_.empty();
   account_ = before_ = earlier.account;
+  sums_ = earlier.sums;
   written_ticks_.store(account_.ticks);
   SessionInfo info = asked;
   info.first_tick = first_tick_;

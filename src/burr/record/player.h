@@ -27,6 +27,7 @@
 #include "burr/record/mcap/mcap_reader.h"
 #include "burr/record/schema.h"
 #include "burr/record/session_info.h"
+#include "burr/record/text_sums.h"
 #include "burr/record/view.h"
 #include "burr/tick/rows.h"
 #include "burr/tool/state.h"
@@ -137,6 +138,17 @@ class Player {
   [[nodiscard]] std::vector<View> views();
   // One sentence about what recordings of today hold and this one does not; empty: nothing.
   [[nodiscard]] std::string lacks() const;
+
+  // ---- the texts of the file (player_texts.cpp)
+  struct Texts {
+    TextSums sums;
+    bool whole = true;  // false: a part is damaged, so that the sums are of the rest
+  };
+  // Reads the parts of the file that hold texts.
+  [[nodiscard]] Texts text_sums() const;
+  // Error: session, commands, view, course or events are not those whose sums the account at the end says. Fine
+  // where there is no account or one without sums (an unfinished or older recording), and where a part is damaged.
+  [[nodiscard]] Status check_texts() const;
 
   // ---- in order
   [[nodiscard]] StepCursor steps(std::uint64_t first_tick = 0);

@@ -239,6 +239,7 @@ Result<EarlierPart> Player::earlier_part() {
   part.hand = {end_tick_, step->row.ledger, step->row.hash};
   part.second.ticks = end_tick_;
   if (step->second) part.second = {end_tick_, step->second->ledger, step->second->hash};
+  part.sums = text_sums().sums;
   RecordingStats& account = part.account;
   for (std::size_t i = 0; i < reader_->metadata().size(); ++i) {
     if (reader_->metadata()[i].name != kAccountName) continue;

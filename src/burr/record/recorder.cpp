@@ -224,7 +224,7 @@ Recorder::~Recorder() = default;
 Status Recorder::start(const std::string& path, const SessionInfo& asked, const volume::Bone* embed,
                        std::function<void(const Error&)> on_trouble, const EarlierPart* earlier) {
   BURR_CHECK(writer_thread_ == nullptr);
-  const SessionInfo info = Pen::completed(asked, rate_hz_, embed != nullptr);
+  SessionInfo info = Pen::completed(asked, rate_hz_, embed != nullptr);
   if (Status good = check(info); !good.ok()) return good;
 
   if (earlier != nullptr)
@@ -238,6 +238,8 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
   if (being_written(path))
     return error(Trouble::io,
                  path + ": another burr is recording to this file; choose another name");
+
+  if (sealer_ != nullptr && earlier == nullptr) info.seal = sealer_->begin(info);
 
   // under another name until it has its beginning; until then an older recording is safe
   const std::string beside = path + ".part";
@@ -261,6 +263,7 @@ Status Recorder::start(const std::string& path, const SessionInfo& asked, const 
 
   path_ = path;
   first_tick_ = earlier != nullptr ? earlier->ticks : 0;
+  if (info.seal) (*pen)->set_sealer(sealer_, path);
   (*pen)->session_begins();
   writer_thread_ = std::make_unique<WriterThread>(*this, std::move(*pen), std::move(on_trouble));
   return fine();

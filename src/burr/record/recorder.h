@@ -29,11 +29,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "burr/base/result.h"
 #include "burr/record/course.h"
 #include "burr/record/recording_stats.h"
+#include "burr/record/sealer.h"
 #include "burr/record/session_info.h"
 #include "burr/record/view.h"
 #include "burr/rt/ring.h"
@@ -56,6 +58,10 @@ class Recorder {
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
+
+  // Call it before start(): who seals the recording. A session that goes on with an earlier recording is not
+  // sealed: a seal is about one sitting.
+  void set_sealer(std::shared_ptr<Sealer> sealer) { sealer_ = std::move(sealer); }
 
   // Begins the file at `path` under its final name; an existing recording is replaced only when the
   // new one has its beginning. embed: this bone goes into the file in its present state. Fills in
@@ -111,6 +117,7 @@ class Recorder {
   bool realtime_;
   std::string path_;
   std::uint64_t first_tick_ = 0;  // of the servo's tick 0, in the file
+  std::shared_ptr<Sealer> sealer_;
   std::unique_ptr<WriterThread> writer_thread_;
 };
 

@@ -176,6 +176,16 @@ bool get_identity(const json& object, Identity& identity, std::string& missing) 
   return true;
 }
 
+bool get_seal(const json& object, StartSeal& seal) {
+  std::uint64_t given = 0;
+  if (!get_text(object, "station", seal.station) || !get_text(object, "nonce", seal.nonce) ||
+      !get_count(object, "given_ms", given) || given > INT64_MAX ||
+      !get_text(object, "signature", seal.signature))
+    return false;
+  seal.given_ms = static_cast<std::int64_t>(given);
+  return true;
+}
+
 bool get_shaft(const json& object, Shaft& shaft) {
   const json &radius = part(object, "radius_m"), &length = part(object, "length_m");
   if (!radius.is_number() || !length.is_number()) return false;
@@ -379,6 +389,11 @@ std::string to_json(const SessionInfo& info) {
     session["second"] = {{"numbers", number_object(info.second->numbers)},
                          {"device", info.second->device},
                          {"tools", json::parse(tools_to_json(info.second->tools))}};
+  if (info.seal)
+    session["seal"] = {{"station", info.seal->station},
+                       {"nonce", info.seal->nonce},
+                       {"given_ms", info.seal->given_ms},
+                       {"signature", info.seal->signature}};
   if (info.first_tick > 0)
     session["continued"] = {{"first_tick", info.first_tick}, {"goes_on_with", info.goes_on_with}};
   // names of tissues come from the user's file and may hold anything; broken UTF-8 is replaced
@@ -421,6 +436,8 @@ Result<SessionInfo> session_from_json(std::string_view text, const std::string& 
     if (!tools_from_json(tools.dump(), info.tools)) return missing("tools");
   if (const json& second = part(object, "second"); !second.is_null())
     if (!get_second(second, info.second.emplace())) return missing("second");
+  if (const json& seal = part(object, "seal"); !seal.is_null())
+    if (!get_seal(seal, info.seal.emplace())) return missing("seal");
   if (const json& part_of = part(object, "continued"); !part_of.is_null())
     if (!get_count(part_of, "first_tick", info.first_tick) ||
         !get_text(part_of, "goes_on_with", info.goes_on_with))

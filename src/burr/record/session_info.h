@@ -75,6 +75,15 @@ struct SecondInfo {
   return second && !second->tools.empty() ? &second->tools.front().tool : nullptr;
 }
 
+// The seal of the start: which enrolled station began the session, and the number that the centre's store
+// gave it for that (record/sealer.h).
+struct StartSeal {
+  std::string station, nonce;
+  std::int64_t given_ms = 0;  // when the nonce was given, by the store's clock; since 1970, UTC
+  std::string signature;      // Ed25519, 128 hexadecimal digits
+  bool operator==(const StartSeal& other) const = default;
+};
+
 struct SessionInfo {
   std::string burr_version;  // filled in by the Recorder
   std::string build;         // likewise: compiler and kind; only the same build replays to the bit
@@ -88,6 +97,7 @@ struct SessionInfo {
   std::optional<Shaft> shaft;           // likewise
   std::vector<tool::ShapedTool> tools;  // other than the round burr, that the session could take
   std::optional<SecondInfo> second;     // none: no second hand, or recorded before 2026-11-27
+  std::optional<StartSeal> seal;        // none: nobody sealed it
   bool embedded = false;                // the file holds the bone; filled in by the Recorder
   // Of a session that was left and continued there is one SessionInfo more for each part. Its first
   // tick in the recording, and the SHA-1 of the file as it was before, 40 digits; both filled in by

@@ -96,6 +96,16 @@ constexpr const char* kSessionSchema = R"({
     "accepted_labels": {"type": "array", "items": {"type": "string"}, "description": "structures whose labels the user accepted in spite of their faults; absent: none"}
    }
   },
+  "seal": {
+   "type": "object",
+   "description": "the seal of the start, of a station that a centre enrolled; that of the end is the metadata burr.seal; absent: nobody sealed it",
+   "properties": {
+    "station": {"type": "string", "description": "its name"},
+    "nonce": {"type": "string", "description": "hexadecimal, 128 bit; the centre's store gave it for this session"},
+    "given_ms": {"type": "integer", "description": "when, by the store's clock [ms since 1970, UTC]"},
+    "signature": {"type": "string", "description": "hexadecimal, Ed25519"}
+   }
+  },
   "continued": {
    "type": "object",
    "description": "only in a second, third ... message: the session was left and continued; this part has the settings above, and its bone is the one at the end of the part before",

@@ -55,6 +55,7 @@ class Database {
   [[nodiscard]] virtual Status begin() = 0;
   [[nodiscard]] virtual Status commit() = 0;
   virtual void rollback() = 0;
+  [[nodiscard]] virtual bool inside() const = 0;  // between begin() and commit() or rollback()
   // From now on nothing can be written.
   [[nodiscard]] virtual Status read_only() = 0;
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "burr/school/enrolled.h"
 #include "burr/school/outbox.h"
 #include "burr/school/ratings.h"
 #include "burr/school/study/standards.h"
@@ -58,6 +59,7 @@ Status check(const Standard& one) {
 constexpr Sql kScored =
     "SELECT session.learner_id, session.id, score.part, score.total, score.gates_broken "
     "FROM session JOIN score ON score.session_id = session.id "
+    "JOIN seal ON seal.session_id = session.id "  // the others prove nothing
     "WHERE session.guided = 0 AND session.finished = 1 AND score.rubric_hash = $1 "
     "AND (session.learner_id = $2 OR $3 = 1) AND NOT EXISTS (SELECT 1 FROM score AS later "
     "WHERE later.session_id = score.session_id AND later.part = score.part "
@@ -114,7 +116,39 @@ Status check(Store& store, const Decision& one) {
   return fine();
 }
 
+// Who decides, and can prove it.
+Result<std::string> who_decides(Store& store, const SigningKey* key) {
+  if (key == nullptr) {
+    if (store.database().kind() != Database::Kind::postgres)
+      return error(Trouble::usage,
+                   "no key says who decides; `school::enrol` with `school::Enrolled::kind` makes "
+                   "yours known to the "
+                   "store");
+    const auto login = store.database().rows("SELECT CAST(session_user AS TEXT)");
+    if (!login) return login.error();
+    return text((*login)[0][0]);
+  }
+  const auto all = enrolled(store);
+  if (!all) return all.error();
+  for (const Enrolled& one : *all)
+    if (one.name == key->name() && one.key == key->public_key() && one.kind == "decider" &&
+        !one.revoked_ms)
+      return one.name;
+  return error(Trouble::usage,
+               fmt::format("key of {}: the store does not know it as that of a person who decides; "
+                           "`school::enrol` with `school::Enrolled::kind` makes it known",
+                           key->name()));
+}
+
 }  // namespace
+
+std::string decision_words(const Decision& one) {
+  return fmt::format(
+      "burr decision 1\nid {}\nlearner {}\nstandard {}\noutcome {}\nby {}\nreason {}\nsessions {}\n"
+      "made_ms {}\n",
+      one.id, one.learner, one.standard, one.outcome, one.confirmed_by, one.reason,
+      nlohmann::json(one.sessions).dump(), one.made_ms);
+}
 
 Result<std::string> set_standard(Store& store, const Standard& standard) {
   if (const Status may = store.may_write(); !may) return may.error();
@@ -188,10 +222,14 @@ Result<std::vector<std::pair<std::string, Proposal>>> proposals(Store& store,
   return proposals_of(store, standard, {});
 }
 
-Result<Decision> decide(Store& store, const Decision& decision) {
+Result<Decision> decide(Store& store, const Decision& given, const SigningKey* key) {
   if (const Status may = store.may_write(); !may) return may.error();
   auto change = Transaction::begin(store.database());
   if (!change) return change.error();
+  const auto who = who_decides(store, key);
+  if (!who) return who.error();
+  Decision decision = given;
+  decision.confirmed_by = *who;
   if (const Status good = check(store, decision); !good) return good.error();
   const auto standard = standard_in(store, decision.standard);
   if (!standard) return standard.error();
@@ -199,8 +237,8 @@ Result<Decision> decide(Store& store, const Decision& decision) {
   if (!rests_on) return rests_on.error();
   if (rests_on->sessions.empty())
     return error(Trouble::usage,
-                 fmt::format("{} has no finished session without guidance that was scored by "
-                             "rubric {}, so there is nothing to decide on",
+                 fmt::format("{} has no sealed, finished session without guidance that was scored "
+                             "by rubric {}, so there is nothing to decide on",
                              decision.learner, base::printable(standard->rubric)));
   Decision out = decision;
   out.standard = standard->id;
@@ -208,11 +246,13 @@ Result<Decision> decide(Store& store, const Decision& decision) {
   out.made_ms = now_ms();
   out.sessions.clear();
   for (const Proposal::Seen& one : rests_on->sessions) out.sessions.push_back(one.session);
+  if (key != nullptr) out.signature = key->sign(decision_words(out));
   const auto made = store.database().run(
       "INSERT INTO decision (id, session_set_json, learner_id, standard_id, outcome, confirmed_by, "
-      "reason, made_ms) VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
+      "reason, made_ms, signature) VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9)",
       {out.id, nlohmann::json(out.sessions).dump(), out.learner, out.standard, out.outcome,
-       out.confirmed_by, out.reason, out.made_ms});
+       out.confirmed_by, out.reason, out.made_ms,
+       out.signature.empty() ? Value() : Value(out.signature)});
   if (!made) return made.error();
   if (const Status queued = queue_decision(store, {out.learner, out.standard, out.outcome,
                                                    out.confirmed_by, out.sessions, out.made_ms});
@@ -227,7 +267,7 @@ Result<Decision> decide(Store& store, const Decision& decision) {
 Result<std::vector<Decision>> decisions(Store& store, const std::string& learner) {
   const auto found = store.database().rows(
       "SELECT learner_id, standard_id, outcome, confirmed_by, reason, id, session_set_json, "
-      "made_ms "
+      "made_ms, signature "
       "FROM decision WHERE learner_id = $1 OR $2 = 1 ORDER BY made_ms, id",
       {learner, std::int64_t{learner.empty()}});
   if (!found) return found.error();
@@ -239,6 +279,7 @@ Result<std::vector<Decision>> decisions(Store& store, const std::string& learner
     if (set.is_array())
       for (const auto& session : set)
         if (session.is_string()) one.sessions.push_back(session.get<std::string>());
+    one.signature = text(row[8]);
     all.push_back(std::move(one));
   }
   return all;

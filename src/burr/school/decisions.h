@@ -2,10 +2,10 @@
 //
 //     auto id = school::set_standard(*store, standard);
 //     auto said = school::proposal(*store, standards->front(), "heron-4821");   // a proposal, never a decision
-//     Status done = school::decide(*store, {"heron-4821", *id, "pass", "A. Berg", "as proposed"});
+//     auto done = school::decide(*store, {"heron-4821", *id, "pass", "", "as proposed"}, &key);
 //
-// Without a standard nothing in burr says "pass". The machine decides nothing: a decision has a person's name, a reason and
-// the set of sessions that it rests on. Thread: as the Store. Errors: as school/database.h.
+// Without a standard nothing in burr says "pass". The machine decides nothing: a decision has a person, who proves it by a
+// key or a login, a reason, and the set of sessions that it rests on. Thread: as the Store. Errors: as school/database.h.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/school/signing_key.h"
 #include "burr/school/store.h"
 
 namespace burr::school {
@@ -42,7 +43,8 @@ struct Standard {
 // In that many sessions one after the other the cut must be reached, and no gate broken.
 inline constexpr std::size_t kInARow = 2;
 
-// What the rule says of a learner: finished sessions without guidance that were scored by the standard's rubric, by time.
+// What the rule says of a learner: sealed, finished sessions without guidance that were scored by the standard's rubric,
+// by time.
 struct Proposal {
   struct Seen {
     std::string session;
@@ -67,10 +69,16 @@ struct Decision {
   std::string id = {};                     // decide() makes it
   std::vector<std::string> sessions = {};  // decide() finds them
   std::int64_t made_ms = 0;
+  std::string signature =
+      {};  // of the key of who confirmed it; empty: by a login, or before 2026-12-01
 };
-// Error, Trouble::usage: no such learner or standard, another outcome, no person or no reason, who confirms is the learner,
-// or the learner has no session that the standard is about. Returns the decision as it was stored.
-[[nodiscard]] Result<Decision> decide(Store& store, const Decision& decision);
+// What is signed.
+[[nodiscard]] std::string decision_words(const Decision& decision);
+// confirmed_by is filled in: the name of the key, which must be enrolled as a decider's; on a server without a key
+// (nullptr) the login. Error, Trouble::usage: neither; no such learner or standard, another outcome, no reason, who confirms
+// is the learner, or the learner has no session that the standard is about. Returns the decision as it was stored.
+[[nodiscard]] Result<Decision> decide(Store& store, const Decision& decision,
+                                      const SigningKey* key = nullptr);
 // The oldest first. learner: empty for all.
 [[nodiscard]] Result<std::vector<Decision>> decisions(Store& store,
                                                       const std::string& learner = {});

@@ -40,11 +40,16 @@ constexpr Table kAll[] = {
      "SELECT hash, name, version, calibrated FROM rubric ORDER BY name, hash"},
     {"session",
      "id,learner_id,case_hash,started_ms,seconds,mode,guided,finished,attempt,device,device_max_n,"
-     "voxel_um,engine,recording_hash",
+     "voxel_um,engine,recording_hash,standing",
      "SELECT id, learner_id, case_hash, started_ms, seconds, mode, guided, finished, ROW_NUMBER() "
      "OVER (PARTITION BY learner_id, case_def.name ORDER BY started_ms, id), device, device_max_n, "
-     "voxel_um, engine, recording_hash FROM session LEFT JOIN case_def "
+     "voxel_um, engine, recording_hash, standing FROM session LEFT JOIN case_def "
      "ON case_def.hash = session.case_hash ORDER BY started_ms, id"},
+    {"station", "name,key,kind,enrolled_ms,revoked_ms",  // not by whom: a login is a name
+     "SELECT name, key, kind, enrolled_ms, revoked_ms FROM station ORDER BY enrolled_ms, name"},
+    {"seal", "session_id,nonce,station,given_ms,ended_ms,bone_hash,head,start_signature,signature",
+     "SELECT session_id, nonce, station, given_ms, ended_ms, bone_hash, head, start_signature, "
+     "signature FROM seal ORDER BY given_ms, session_id"},
     {"score", "id,session_id,rubric_hash,engine,part,total,gates_broken,assessable_weight,made_ms",
      "SELECT id, session_id, rubric_hash, engine, part, total, gates_broken, assessable_weight, "
      "made_ms FROM score ORDER BY session_id, part, id"},
@@ -80,11 +85,18 @@ constexpr TableOf kOf[] = {
      "(SELECT case_hash FROM session WHERE learner_id = $1) ORDER BY name"},
     {"session",
      "id,learner_id,case_hash,started_ms,seconds,mode,guided,finished,attempt,device,device_max_n,"
-     "voxel_um,engine,recording_hash,recording_uri",
+     "voxel_um,engine,recording_hash,recording_uri,standing",
      "SELECT id, learner_id, case_hash, started_ms, seconds, mode, guided, finished, ROW_NUMBER() "
      "OVER (PARTITION BY case_def.name ORDER BY started_ms, id), device, device_max_n, voxel_um, "
-     "engine, recording_hash, recording_uri FROM session LEFT JOIN case_def "
+     "engine, recording_hash, recording_uri, standing FROM session LEFT JOIN case_def "
      "ON case_def.hash = session.case_hash WHERE learner_id = $1 ORDER BY started_ms, id"},
+    {"seal", "session_id,nonce,station,given_ms,ended_ms,bone_hash,head,start_signature,signature",
+     "SELECT session_id, nonce, station, given_ms, ended_ms, bone_hash, head, start_signature, "
+     "signature FROM seal WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1) "
+     "ORDER BY given_ms"},
+    {"nonce", "nonce,station,mode,case_hash,rubric_hash,given_ms",
+     "SELECT nonce, station, mode, case_hash, rubric_hash, given_ms FROM nonce "
+     "WHERE learner_id = $1 ORDER BY given_ms"},
     {"score", "id,session_id,rubric_hash,engine,part,total,gates_broken,assessable_weight,made_ms",
      "SELECT id, session_id, rubric_hash, engine, part, total, gates_broken, assessable_weight, "
      "made_ms FROM score WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1) "

@@ -98,14 +98,18 @@ constexpr Sql kDeletes[] = {
     "DELETE FROM metric WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM self_mark WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM rater_mark WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
+    "DELETE FROM seal WHERE session_id IN (SELECT id FROM session WHERE learner_id = $1)",
     "DELETE FROM decision WHERE learner_id = $1",
     // whoever did it may be the learner
-    R"(UPDATE audit SET subject = '', who = '' WHERE subject IN (SELECT id FROM session WHERE learner_id = $1))",
-    "UPDATE audit SET subject = '', who = '' WHERE subject = $1",
-    "UPDATE audit SET who = 'forgotten' WHERE who = $1",
+    R"(UPDATE audit SET subject = '', who = '', salt = '' WHERE subject IN
+       (SELECT id FROM session WHERE learner_id = $1))",
+    "UPDATE audit SET subject = '', who = '', salt = '' WHERE subject = $1",
+    "UPDATE audit SET who = 'forgotten', salt = '' WHERE who = $1",
     "UPDATE rater_mark SET rater_id = 'forgotten' WHERE rater_id = $1",
-    "UPDATE decision SET confirmed_by = 'forgotten' WHERE confirmed_by = $1",
+    "UPDATE decision SET confirmed_by = 'forgotten', signature = NULL WHERE confirmed_by = $1",
     "UPDATE standard SET set_by = 'forgotten' WHERE set_by = $1",
+    "DELETE FROM nonce_end WHERE nonce IN (SELECT nonce FROM nonce WHERE learner_id = $1)",
+    "DELETE FROM nonce WHERE learner_id = $1",
     "DELETE FROM session WHERE learner_id = $1",
     "DELETE FROM cohort_member WHERE learner_id = $1",
     "DELETE FROM learner WHERE id = $1",
@@ -120,7 +124,8 @@ constexpr Sql kScrubServer[] = {
     "VACUUM (FULL, ANALYZE) decision",     "VACUUM (FULL, ANALYZE) outbox",
     "VACUUM (FULL, ANALYZE) standard",     "VACUUM (FULL, ANALYZE) audit",
     "VACUUM (FULL, ANALYZE) session",      "VACUUM (FULL, ANALYZE) cohort_member",
-    "VACUUM (FULL, ANALYZE) learner",
+    "VACUUM (FULL, ANALYZE) learner",      "VACUUM (FULL, ANALYZE) seal",
+    "VACUUM (FULL, ANALYZE) nonce",        "VACUUM (FULL, ANALYZE) nonce_end",
 };
 
 // In a change of its own: with SQLite the names are another file, and nothing is whole over both.
@@ -219,6 +224,14 @@ Result<Forgotten> forget(Store& store, const std::string& learner, const Recordi
     if (store.database().kind() == Database::Kind::postgres)
       if (const auto alone =
               store.database().rows("SELECT id FROM learner WHERE id = $1 FOR UPDATE", {learner});
+          !alone)
+        return alone.error();
+    // nor marks of its sessions (ratings.cpp)
+    if (store.database().kind() == Database::Kind::postgres)
+      if (const auto alone = store.database().rows(
+              "SELECT pg_advisory_xact_lock(72372, hashtext(id)) FROM session "
+              "WHERE learner_id = $1 ORDER BY id",
+              {learner});
           !alone)
         return alone.error();
     const auto sessions = sessions_of(store, learner);

@@ -228,17 +228,19 @@ Leftovers leftovers(const StorePlace& place, const std::string& learner) {
   return found;
 }
 
-Result<Kept> enter_or_keep(const StorePlace& place, const SessionRecord& record) {
+Result<Kept> enter_or_keep(const StorePlace& place, const SessionRecord& record,
+                           const WaitingRecording& from) {
   Status trouble = fine();
   if (auto store = Store::open(place); store) {
     const auto entered = enter(**store, record);
-    if (entered) return Kept{true, ""};
+    if (entered) return Kept{true, "", entered->standing};
     trouble = entered.error();
   } else {
     trouble = store.error();
   }
   if (is_refused(trouble.error())) return trouble.error();
-  if (const Status waits = keep(place, record); !waits)
+  const bool sealed = record.seal && !from.file.empty();
+  if (const Status waits = sealed ? keep(place, from) : keep(place, record); !waits)
     return error(Trouble::io, fmt::format("{}; and {}", trouble.error().text, waits.error().text));
   return Kept{false, trouble.error().text};
 }

@@ -50,11 +50,15 @@ struct Leftovers {
 [[nodiscard]] Leftovers leftovers(const StorePlace& place, const std::string& learner);
 
 struct Kept {
-  bool stored = false;  // false: it waits
-  std::string why;      // it waits
+  bool stored = false;        // false: it waits
+  std::string why;            // it waits
+  std::string standing = {};  // stored: whether it counts (school/seal.h)
 };
-// Error: refused for good, or it can neither be stored nor wait.
-[[nodiscard]] Result<Kept> enter_or_keep(const StorePlace& place, const SessionRecord& record);
+// from: where the session is from. A sealed one waits as its recording, since a file with its scores could be written by
+// anybody; it is scored and simulated again when the store is there. Error: refused for good, or it can neither be
+// stored nor wait.
+[[nodiscard]] Result<Kept> enter_or_keep(const StorePlace& place, const SessionRecord& record,
+                                         const WaitingRecording& from = {});
 
 struct TakenIn {
   std::size_t taken = 0, left = 0;

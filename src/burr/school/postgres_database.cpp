@@ -130,6 +130,7 @@ class Postgres final : public Database {
     if (PQstatus(connection_) == CONNECTION_OK) static_cast<void>(run("ROLLBACK", {}));
     inside_ = false;
   }
+  bool inside() const override { return inside_; }
   Status read_only() override {
     reads_only_ = true;
     const auto set = run("SET default_transaction_read_only = on", {});

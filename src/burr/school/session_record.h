@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/school/seal.h"
 
 namespace burr::school {
 
@@ -74,6 +75,10 @@ struct SessionRecord {
   std::vector<ScoreRecord> scores;
   std::vector<MetricRecord> metrics;
   std::vector<SelfMarkRecord> self_marks;
+  // These two are never part of the JSON: whoever can write that file could write them. A session that is believed
+  // comes from its recording each time.
+  std::optional<Seal> seal = {};
+  bool replayed = false;  // simulated again, and every tick and brick was the same
   bool operator==(const SessionRecord&) const = default;
 };
 

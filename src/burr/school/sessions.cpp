@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "burr/base/printable.h"
+#include "burr/school/enrolled.h"
 #include "burr/school/outbox.h"
 
 namespace burr::school {
@@ -38,16 +39,18 @@ Status define(Database& to, const SessionRecord& record) {
              {rubric.hash, rubric.name, rubric.version, rubric.calibrated, rubric.text}));
 }
 
-Result<bool> insert_session(Database& to, const SessionRecord& record, const std::string& id) {
+Result<bool> insert_session(Database& to, const SessionRecord& record, const std::string& id,
+                            const std::string& standing) {
   const auto made = to.run(
       "INSERT INTO session (id, learner_id, case_hash, started_ms, seconds, mode, guided, "
       "finished, "
-      "attempt, device, device_max_n, voxel_um, engine, recording_hash, recording_uri) VALUES "
-      "($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15) ON CONFLICT DO NOTHING",
+      "attempt, device, device_max_n, voxel_um, engine, recording_hash, recording_uri, standing) "
+      "VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16) "
+      "ON CONFLICT DO NOTHING",
       {id, record.learner, record.work_case.hash.empty() ? Value() : Value(record.work_case.hash),
        record.started_ms, record.seconds, record.mode, std::int64_t{record.guided},
        std::int64_t{record.finished}, record.attempt, record.device, or_null(record.device_max_n),
-       record.voxel_um, record.engine, record.recording_hash, record.recording_uri});
+       record.voxel_um, record.engine, record.recording_hash, record.recording_uri, standing});
   if (!made) return made.error();
   return *made > 0;
 }
@@ -92,12 +95,14 @@ Status insert_rest(Database& to, const SessionRecord& record, const std::string&
 }
 
 // A session that was continued is one session: what was entered of its recording before it went on
-// gives way. What a person has marked stays: it is about that work.
+// gives way. What a person has marked stays: it is about that work. So does what is sealed: nobody takes back an exam
+// by going on with it.
 Status take_out_earlier(Database& to, const SessionRecord& record, Entered& entered) {
   for (const std::string& hash : record.goes_on_with) {
     const auto found = to.rows(
         "SELECT id FROM session WHERE recording_hash = $1 AND learner_id = $2 AND NOT EXISTS "
-        "(SELECT 1 FROM rater_mark WHERE rater_mark.session_id = session.id)",
+        "(SELECT 1 FROM rater_mark WHERE rater_mark.session_id = session.id) AND NOT EXISTS "
+        "(SELECT 1 FROM seal WHERE seal.session_id = session.id)",
         {hash, record.learner});
     if (!found) return found.error();
     for (const Row& row : *found) {
@@ -115,11 +120,24 @@ Status take_out_earlier(Database& to, const SessionRecord& record, Entered& ente
   return fine();
 }
 
+// What is sealed keeps its seal, and its date is that of the store's clock; also of a session that came in before, without.
+Status insert_seal(Store& store, const SessionRecord& record, const std::string& id, bool fresh) {
+  const auto kept = keep_seal(store, record);
+  if (!kept) return kept.error();
+  if (*kept == fresh) return fine();
+  if (fresh)
+    return error(Trouble::usage,
+                 "its nonce belongs to another session of the store; enter each session once");
+  return ran(store.database().run("UPDATE session SET standing = $2, started_ms = $3 WHERE id = $1",
+                                  {id, std::string(standing::kSealed), record.seal->given_ms}));
+}
+
 }  // namespace
 
-Result<Entered> enter(Store& store, const SessionRecord& record) {
+Result<Entered> enter(Store& store, const SessionRecord& given) {
   if (const Status may = store.may_write(); !may) return may.error();
   Database& to = store.database();
+  SessionRecord record = given;
   const std::string id = session_id(record);
   auto change = Transaction::begin(to);
   if (!change) return change.error();
@@ -131,7 +149,12 @@ Result<Entered> enter(Store& store, const SessionRecord& record) {
                              base::printable(record.learner)));
   if (const Status done = define(to, record); !done) return done.error();
   Entered entered;
-  const auto fresh = insert_session(to, record, id);
+  const auto standing = check_seal(store, record);
+  if (!standing) return standing.error();
+  entered.standing = *standing;
+  const bool sealed = *standing == standing::kSealed;
+  if (sealed) record.started_ms = record.seal->given_ms;
+  const auto fresh = insert_session(to, record, id, *standing);
   if (!fresh) return fresh.error();
   entered.session = *fresh;
   if (!*fresh) {
@@ -140,6 +163,8 @@ Result<Entered> enter(Store& store, const SessionRecord& record) {
     if (whose->empty() || text((*whose)[0][0]) != record.learner)
       return error(Trouble::usage, "this recording is in the store as that of another learner");
   }
+  if (sealed)
+    if (const Status kept = insert_seal(store, record, id, *fresh); !kept) return kept.error();
   for (const ScoreRecord& score : record.scores) {
     const auto made = insert_score(to, record, score);
     if (!made) return made.error();
@@ -204,7 +229,7 @@ Result<std::vector<SessionRow>> sessions_of(Store& store, const std::string& lea
       "session.engine, session.recording_uri, session.recording_hash, session.started_ms, "
       "ROW_NUMBER() OVER (PARTITION BY session.learner_id, case_def.name "
       "ORDER BY session.started_ms, session.id), session.seconds, session.voxel_um, "
-      "session.guided, session.finished "
+      "session.guided, session.finished, COALESCE(session.standing, '') "
       "FROM session LEFT JOIN case_def ON case_def.hash = session.case_hash "
       "WHERE session.learner_id = $1 OR $2 = 1 ORDER BY session.started_ms, session.id",
       {learner, std::int64_t{learner.empty()}});
@@ -213,7 +238,8 @@ Result<std::vector<SessionRow>> sessions_of(Store& store, const std::string& lea
   for (const Row& row : *found)
     all.push_back({text(row[0]), text(row[1]), text(row[2]), text(row[3]), text(row[4]),
                    text(row[5]), text(row[6]), text(row[7]), whole(row[8]), whole(row[9]),
-                   number(row[10]), number(row[11]), whole(row[12]) != 0, whole(row[13]) != 0});
+                   number(row[10]), number(row[11]), whole(row[12]) != 0, whole(row[13]) != 0,
+                   is_null(row[14]) || text(row[14]).empty() ? standing::kNoSeal : text(row[14])});
   return all;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "burr/base/result.h"
+#include "burr/school/seal.h"
 #include "burr/school/session_record.h"
 #include "burr/school/store.h"
 
@@ -22,8 +23,10 @@ struct Entered {
   std::size_t scores = 0;  // new ones, also of a session that was there
   // Sessions that this one goes on with: they were entered before it was continued.
   std::size_t taken_out = 0;
+  std::string standing = {};  // school/seal.h: whether it counts
 };
-// All or nothing. Error, Trouble::usage: there is no such learner.
+// All or nothing. Error, Trouble::usage: there is no such learner; or the session's seal is not true, or was used. A
+// sealed session has the date of the store's clock.
 [[nodiscard]] Result<Entered> enter(Store& store, const SessionRecord& record);
 
 // Until that many unguided sessions of one case, a mark says little of a person.
@@ -46,6 +49,8 @@ struct SessionRow {
   std::int64_t started_ms = 0, attempt = 0;
   double seconds = 0, voxel_um = 0;
   bool guided = false, finished = false;
+  std::string standing = {};  // school/seal.h
+  [[nodiscard]] bool sealed() const { return standing == standing::kSealed; }
 };
 // By time; of this learner, or of all where `learner` is empty.
 [[nodiscard]] Result<std::vector<SessionRow>> sessions_of(Store& store, const std::string& learner);

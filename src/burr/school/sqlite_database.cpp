@@ -115,6 +115,7 @@ class Sqlite final : public Database {
   void rollback() override {
     if (sqlite3_get_autocommit(handle_) == 0) static_cast<void>(run("ROLLBACK", {}));
   }
+  bool inside() const override { return sqlite3_get_autocommit(handle_) == 0; }
   Status read_only() override { return done("PRAGMA query_only = ON"); }
 
  private:

@@ -14,6 +14,7 @@
 
 #include "burr/base/printable.h"
 #include "burr/record/identity.h"
+#include "burr/school/audit_row.h"
 #include "burr/school/store_schema.h"
 #include "burr/school/uuid.h"
 
@@ -182,10 +183,13 @@ Status Store::may_write() const { return reads_only_ ? error(Trouble::io, newer_
 Status Store::note(std::string_view what, std::string_view subject, By by) {
   std::string who = place_.who;
   if (by == By::computer) who.erase(0, who.rfind('@') + 1);  // all of it where there is no @
-  const auto noted =
-      database_->run("INSERT INTO audit (ms, who, what, subject) VALUES ($1, $2, $3, $4)",
-                     {now_ms(), who, std::string(what), std::string(subject)});
-  return noted ? fine() : Status(noted.error());
+  // the row before and this one together, or another program's row would come between them
+  const bool alone = !database_->inside();
+  auto change = alone ? Transaction::begin(*database_) : Result<Transaction>(error(""));
+  if (alone && !change) return change.error();
+  if (const Status noted = add_to_audit(*database_, now_ms(), who, what, subject); !noted)
+    return noted;
+  return alone ? change->commit() : fine();
 }
 
 Result<bool> has(Store& store, const std::string& learner) {

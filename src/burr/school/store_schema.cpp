@@ -99,6 +99,62 @@ constexpr Sql kFourthOfServer[] = {
     kFourth[3], kFourth[4], "ALTER TABLE standard ALTER set_by SET STATISTICS 0",
 };
 
+// stations and their seals; how far a session is believed; the audit as a chain
+constexpr Sql kStation =
+    R"(CREATE TABLE station (name TEXT PRIMARY KEY, key TEXT NOT NULL UNIQUE, kind TEXT NOT NULL,
+       enrolled_ms BIGINT NOT NULL, enrolled_by TEXT NOT NULL, revoked_ms BIGINT, revoked_by TEXT))";
+constexpr Sql kSeal =
+    R"(CREATE TABLE seal (session_id TEXT PRIMARY KEY REFERENCES session(id),
+       nonce TEXT NOT NULL UNIQUE REFERENCES nonce(nonce), station TEXT NOT NULL REFERENCES station(name),
+       given_ms BIGINT NOT NULL, ended_ms BIGINT NOT NULL, bone_hash TEXT NOT NULL, head TEXT NOT NULL,
+       start_signature TEXT NOT NULL, signature TEXT NOT NULL))";
+constexpr Sql kStanding = "ALTER TABLE session ADD COLUMN standing TEXT";
+constexpr Sql kAuditNumber = "ALTER TABLE audit ADD COLUMN number BIGINT";
+constexpr Sql kAuditSalt = "ALTER TABLE audit ADD COLUMN salt TEXT";
+constexpr Sql kAuditDigest = "ALTER TABLE audit ADD COLUMN digest TEXT";
+constexpr Sql kAuditHash = "ALTER TABLE audit ADD COLUMN hash TEXT";
+constexpr Sql kAuditIndex = "CREATE UNIQUE INDEX audit_in_order ON audit(number)";
+constexpr Sql kDecisionKey = "ALTER TABLE decision ADD COLUMN signature TEXT";
+constexpr Sql kFifth[] = {
+    kStation,
+    R"(CREATE TABLE nonce (nonce TEXT PRIMARY KEY, station TEXT NOT NULL REFERENCES station(name),
+       learner_id TEXT NOT NULL REFERENCES learner(id), mode TEXT NOT NULL, case_hash TEXT NOT NULL,
+       rubric_hash TEXT NOT NULL, given_ms BIGINT NOT NULL))",
+    R"(CREATE TABLE nonce_end (nonce TEXT PRIMARY KEY REFERENCES nonce(nonce), head TEXT NOT NULL,
+       ended_ms BIGINT NOT NULL))",
+    kSeal,
+    kStanding,
+    kAuditNumber,
+    kAuditSalt,
+    kAuditDigest,
+    kAuditHash,
+    kAuditIndex,
+    kDecisionKey,
+};
+// the times are the server's own: a station has no right to write them (docs/teach/security.md)
+constexpr Sql kFifthOfServer[] = {
+    kStation,
+    R"(CREATE TABLE nonce (nonce TEXT PRIMARY KEY, station TEXT NOT NULL REFERENCES station(name),
+       learner_id TEXT NOT NULL REFERENCES learner(id), mode TEXT NOT NULL, case_hash TEXT NOT NULL,
+       rubric_hash TEXT NOT NULL,
+       given_ms BIGINT NOT NULL DEFAULT (extract(epoch FROM clock_timestamp()) * 1000)::bigint))",
+    R"(CREATE TABLE nonce_end (nonce TEXT PRIMARY KEY REFERENCES nonce(nonce), head TEXT NOT NULL,
+       ended_ms BIGINT NOT NULL DEFAULT (extract(epoch FROM clock_timestamp()) * 1000)::bigint))",
+    kSeal,
+    kStanding,
+    kAuditNumber,
+    kAuditSalt,
+    kAuditDigest,
+    kAuditHash,
+    kAuditIndex,
+    kDecisionKey,
+    "ALTER TABLE nonce ALTER learner_id SET STATISTICS 0, ALTER nonce SET STATISTICS 0",
+    "ALTER TABLE nonce_end ALTER nonce SET STATISTICS 0",
+    "ALTER TABLE station ALTER enrolled_by SET STATISTICS 0, ALTER revoked_by SET STATISTICS 0",
+    "ALTER TABLE audit ALTER salt SET STATISTICS 0, ALTER digest SET STATISTICS 0",
+    "ALTER TABLE seal ALTER session_id SET STATISTICS 0, ALTER nonce SET STATISTICS 0",
+};
+
 constexpr Sql kNames[] = {
     R"(CREATE TABLE IF NOT EXISTS names.person (learner_id TEXT PRIMARY KEY, name TEXT, mail TEXT,
        external_id TEXT))",
@@ -110,9 +166,10 @@ std::span<const Sql> step(std::int64_t v, Database::Kind kind) {
   if (v == 1) return kSecond;
   const bool server = kind == Database::Kind::postgres;
   if (v == 2) return server ? std::span<const Sql>(kThirdOfServer) : std::span<const Sql>();
-  return server ? std::span<const Sql>(kFourthOfServer) : std::span<const Sql>(kFourth);
+  if (v == 3) return server ? std::span<const Sql>(kFourthOfServer) : std::span<const Sql>(kFourth);
+  return server ? std::span<const Sql>(kFifthOfServer) : std::span<const Sql>(kFifth);
 }
-static_assert(kSchema == 4);
+static_assert(kSchema == 5);
 
 Result<std::int64_t> version_of(Database& database) {
   const auto there =

@@ -10,7 +10,7 @@
 
 namespace burr::school {
 
-inline constexpr std::int64_t kSchema = 4;  // the version that this burr writes
+inline constexpr std::int64_t kSchema = 5;  // the version that this burr writes
 
 // Brings the store to `to`. Returns the version that it then has, which is larger where a newer burr made it: such a
 // store is left as it is. Several programs may do this at once.

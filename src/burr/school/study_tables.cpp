@@ -28,7 +28,7 @@ void add(study::Table& to, std::vector<std::string> row) {
 }  // namespace
 
 Result<study::Table> marks_table(Store& store, const std::string& rubric_hash,
-                                 const std::string& part) {
+                                 const std::string& part, Which which) {
   // attempts are counted over all of a learner's sessions at a case, as everywhere
   const auto found = store.database().rows(
       "WITH counted AS (SELECT session.id, session.learner_id, session.case_hash, session.guided, "
@@ -42,23 +42,24 @@ Result<study::Table> marks_table(Store& store, const std::string& rubric_hash,
       "WHERE later.session_id = score.session_id AND later.part = score.part "
       "AND later.rubric_hash = score.rubric_hash AND (later.made_ms > score.made_ms "
       "OR (later.made_ms = score.made_ms AND later.id > score.id))) "
+      "AND ($3 = 1 OR EXISTS (SELECT 1 FROM seal WHERE seal.session_id = counted.id)) "
       "ORDER BY counted.learner_id, counted.started_ms, counted.id",
-      {rubric_hash, part});
+      {rubric_hash, part, std::int64_t{which == Which::all}});
   if (!found) return found.error();
   study::Table out = table_of("the store", {"learner", "mark", "attempt", "bone", "guided"});
   for (const Row& row : *found)
     add(out, {text(row[0]), written(row[1]), written(row[2]), text(row[3]), written(row[4])});
   if (out.rows.empty())
     return error(Trouble::usage,
-                 fmt::format("the store has no finished session with points of the {}",
-                             base::printable(part)));
+                 fmt::format("the store has no {}finished session with points of the {}",
+                             which == Which::sealed ? "sealed, " : "", base::printable(part)));
   return out;
 }
 
 Result<study::Table> groups_table(Store& store, const std::string& rubric_hash,
                                   const std::string& part, const std::vector<std::string>& low,
                                   const std::vector<std::string>& high) {
-  const auto marks = marks_table(store, rubric_hash, part);
+  const auto marks = marks_table(store, rubric_hash, part, Which::sealed);
   if (!marks) return marks.error();
   const auto people = store.database().rows("SELECT id, level FROM learner");
   if (!people) return people.error();
@@ -81,7 +82,7 @@ Result<study::Table> groups_table(Store& store, const std::string& rubric_hash,
   for (const auto& [learner, mark] : last) add(out, {group[learner], mark});
   if (out.rows.empty())
     return error(Trouble::usage,
-                 "no learner of these levels has a finished session without guidance");
+                 "no learner of these levels has a sealed, finished session without guidance");
   return out;
 }
 

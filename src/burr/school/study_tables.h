@@ -17,12 +17,15 @@
 
 namespace burr::school {
 
+// all: also sessions without a seal, which prove nothing; for learning curves. A standard rests on sealed ones alone.
+enum class Which { all, sealed };
+
 // learner, mark, attempt, bone, guided; each learner's rows by time. mark: points of the part. bone: the case, by the hash of
 // its text. Left out: sessions that were not finished, and those without points.
 [[nodiscard]] Result<study::Table> marks_table(Store& store, const std::string& rubric_hash,
-                                               const std::string& part);
+                                               const std::string& part, Which which = Which::all);
 
-// group, mark: of each learner of these levels the last mark without guidance, so that everybody counts once.
+// group, mark: of each learner of these levels the last sealed mark without guidance, so that everybody counts once.
 [[nodiscard]] Result<study::Table> groups_table(Store& store, const std::string& rubric_hash,
                                                 const std::string& part,
                                                 const std::vector<std::string>& low,

@@ -55,6 +55,7 @@ Result<std::unique_ptr<record::Recorder>> record(sim::Session& session, const st
   info.volume.recipe = scenario::without_paths(about.recipe);
   auto recorder = std::make_unique<record::Recorder>(
       info.rate_hz, kBrickRows, session.settings().realtime, second != nullptr);
+  recorder->set_sealer(about.sealer);
   const Status started = recorder->start(file, info, about.embed ? &bone : nullptr,
                                          std::move(on_trouble), about.earlier.get());
   if (!started) return started.error();

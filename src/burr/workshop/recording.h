@@ -41,6 +41,8 @@ struct About {
   // The recording that this one goes on with, in the same file (record/earlier_part.h); none: a new
   // one.
   std::shared_ptr<const record::EarlierPart> earlier = {};
+  // Who seals the recording (record/sealer.h); none: nobody.
+  std::shared_ptr<record::Sealer> sealer = {};
 };
 // For a session that was made from `prepared`, with the tissues that its case spares. bone: that of
 // the session.

@@ -14,7 +14,8 @@ namespace burr::app {
 namespace fs = std::filesystem;
 
 Autosave::Autosave(const fs::path& state, WindowSession& ready, const WorkOptions& options,
-                   const Settings& settings, const KeptSession* goes_on)
+                   const Settings& settings, const KeptSession* goes_on,
+                   std::shared_ptr<record::Sealer> sealer)
     : ready_(ready), session_(*ready.session) {
   if (state.empty()) return;
   const fs::path folder = state / "sessions";
@@ -23,6 +24,7 @@ Autosave::Autosave(const fs::path& state, WindowSession& ready, const WorkOption
     describe(options);
     recording_.remember_scan_in(scan_list_by(settings, state));
     recording_.belongs_to(ready.identity);
+    if (goes_on == nullptr) recording_.sealed_by(std::move(sealer));
     made = begin(folder, goes_on);
     recording_now_ = made.ok();
   }

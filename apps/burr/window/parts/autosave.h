@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -22,9 +23,10 @@ class Autosave {
  public:
   // options: as the user gave them. goes_on: the session that this one continues; nullptr: it is a
   // new one. Where its recording cannot go on, a new one with the bone inside begins, and apart() says
-  // why. After an error the session goes on; trouble() returns the error.
+  // why. sealer: of a new session; nullptr: nobody. After an error the session goes on; trouble() returns the error.
   Autosave(const std::filesystem::path& state, WindowSession& ready, const WorkOptions& options,
-           const Settings& settings, const KeptSession* goes_on = nullptr);
+           const Settings& settings, const KeptSession* goes_on = nullptr,
+           std::shared_ptr<record::Sealer> sealer = nullptr);
   // Call it after the servo has stopped. Error: what was done is not kept, or not all of it.
   [[nodiscard]] Status finish();
   // Of the recording that is kept; empty: there is none.

@@ -12,6 +12,7 @@
 #include "burr/school/store.h"
 #include "shared/front_words.h"
 #include "shared/helper_process.h"
+#include "shared/key_file.h"
 #include "shared/word_names.h"
 #include "window/review/review.h"
 
@@ -60,6 +61,23 @@ void take_in(Desk& desk, const school::StorePlace& place) {
 }
 
 }  // namespace
+
+std::shared_ptr<school::StationSealer> sealer_for(Desk& desk, const record::Identity& identity,
+                                                  const scenario::Case* work) {
+  const auto place = place_for(desk, identity, work);
+  const std::string file = key_file(desk.places(), KeyOf::station);
+  std::error_code nobody_asks;
+  if (!place || file.empty() || !std::filesystem::exists(file, nobody_asks)) return nullptr;
+  auto key = school::SigningKey::read(file);
+  if (key) return std::make_shared<school::StationSealer>(*place, std::move(*key));
+  tell(desk, in_options(key.error()).text);
+  return nullptr;
+}
+
+void tell_of_seal(Desk& desk, const std::shared_ptr<school::StationSealer>& sealer) {
+  if (sealer == nullptr) return;
+  for (const std::string& line : sealer->said()) tell(desk, in_options(line));
+}
 
 void session_begins(Desk& desk, const std::string& recording, const record::Identity& identity,
                     const scenario::Case* work) {

@@ -5,13 +5,23 @@
 // Thread: main.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "burr/record/identity.h"
 #include "burr/scenario/case.h"
+#include "burr/school/station_sealer.h"
 #include "window/ui/desk.h"
 
 namespace burr::app {
+
+// Who seals the session, where this computer is an enrolled station. nullptr: nobody; it has no key (`burr station
+// enrol`), or the session goes into no store. The start page shows a key that cannot be used.
+[[nodiscard]] std::shared_ptr<school::StationSealer> sealer_for(Desk& desk,
+                                                                const record::Identity& identity,
+                                                                const scenario::Case* work);
+// After the recording is finished: why it has no seal, if it has none.
+void tell_of_seal(Desk& desk, const std::shared_ptr<school::StationSealer>& sealer);
 
 // When the recording begins: a session that is killed comes in at the next start, as unfinished.
 void session_begins(Desk& desk, const std::string& recording, const record::Identity& identity,

@@ -138,18 +138,19 @@ WindowOptions with_recording(Desk& desk, const WindowOptions& window, const Wind
 
 Result<Closed> mill_and_keep(Desk& desk, WindowSession& ready, const WorkOptions& options,
                              const KeptSession* goes_on, const WindowOptions& window) {
+  const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
+  const auto sealer = goes_on == nullptr ? sealer_for(desk, ready.identity, work) : nullptr;
   std::unique_ptr<Autosave> autosave;
   if (desk.settings.autosave && !desk.places().state.empty()) {
     throw_old_away(desk.places().state, desk.settings,
                    goes_on != nullptr ? goes_on->file : std::filesystem::path());
-    autosave =
-        std::make_unique<Autosave>(desk.places().state, ready, options, desk.settings, goes_on);
+    autosave = std::make_unique<Autosave>(desk.places().state, ready, options, desk.settings,
+                                          goes_on, sealer);
     if (!autosave->apart().empty()) desk.troubles.push_back(autosave->apart());
   }
   // a recording with a part of the session has no marks
   const bool enters = autosave && autosave->diary() != nullptr && !autosave->is_part();
   const std::string file = enters ? autosave->file().string() : std::string();
-  const scenario::Case* work = ready.work_case ? &*ready.work_case : nullptr;
   if (enters) session_begins(desk, file, ready.identity, work);
   const WindowOptions with = with_recording(desk, window, ready, autosave.get());
   Result<Closed> left = mill_with_sound(desk, ready, with);
@@ -159,6 +160,7 @@ Result<Closed> mill_and_keep(Desk& desk, WindowSession& ready, const WorkOptions
   if (autosave) {
     keep_picture(desk, ready, *autosave);
     if (const Status kept = autosave->finish(); !kept) desk.lost = kept;
+    tell_of_seal(desk, sealer);
   }
   // one that ended early, on a full disk, counts with what it holds
   std::error_code nobody_asks;
