@@ -241,7 +241,9 @@ def run_all(options, jobs):
 
 
 def points(result, part="product"):
-    """Points of a part; a part without a total counts what is met of what can be assessed."""
+    """Points of a part; a part without a total counts what is met of what can be assessed, and work without a mark nothing."""
+    if result["score"].get("no_mark"):
+        return 0.0
     total = result["score"][part]
     if total.get("points") is not None:
         return float(total["points"])

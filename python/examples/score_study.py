@@ -3,6 +3,7 @@
 
     score_study.py [OUT] [CASE] [LEARNERS] [SESSIONS] [SECONDS]        learners of each level, sessions of each
 
+A session that has no mark (docs/teach/scoring.md#whether-there-is-a-mark-at-all) counts as 0 points.
 AUC: the share of pairs of an expert and a careless surgeon in which the expert has more points (0.5: the marks say nothing).
 G: the reliability of the mean mark of a surgeon (Brennan 2001), as `burr study reliability` computes it from the same table.
 The surgeons are scripts (docs/understand/surgeon.md): a mark that tells them apart may still fail on people.
@@ -37,7 +38,7 @@ def reliability(marks):
     return person / (person + of_rest / occasions) if person > 0 else 0.0
 
 
-def main(out="study", case="block", learners=2, sessions=2, seconds=120):
+def main(out="study", case="tooth", learners=2, sessions=2, seconds=300):
     folder = pathlib.Path(out)
     folder.mkdir(parents=True, exist_ok=True)
     learners, sessions, table = int(learners), int(sessions), []
@@ -49,7 +50,7 @@ def main(out="study", case="block", learners=2, sessions=2, seconds=120):
                 burr.program.run("surgeon", case, "--level", level, "--seed", seed, "--seconds", seconds, "--record", file, "--json")
                 score = burr.Recording(str(file)).score()
                 file.unlink()  # 250 kB a second; the seed makes it again
-                table.append({"learner": f"{level}-{learner + 1}", "level": level, "seed": seed, "mark": score["product"]["points"],
+                table.append({"learner": f"{level}-{learner + 1}", "level": level, "seed": seed, "mark": score["product"]["points"] or 0.0,
                               **{item["id"]: item["verdict"] for item in score["items"]}})
     with open(folder / "marks.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, table[0].keys())

@@ -248,6 +248,7 @@ py::dict Recording::score(const std::string& name, const py::object& call) {
   return py::dict("rubric"_a = rubric.name, "version"_a = rubric.version,
                   "case"_a = rubric.case_name, "unfinished"_a = score.unfinished,
                   "ending"_a = score.ending, "removed_share_of_target"_a = score.worked,
+                  "no_mark"_a = scoring::text_of(score.no_mark),
                   "product"_a = total_of(score.product), "process"_a = total_of(score.process),
                   "items"_a = items);
 }

@@ -81,7 +81,7 @@ class Examples(unittest.TestCase):
         self.assertAlmostEqual(np.mean([outcome["threshold"] for outcome in other]), 0.24, delta=0.2 * 0.24)
 
     def test_scores_tell_scripted_surgeons_apart(self):
-        table, found = script("score_study")(self.folder, "block", 2, 2, 120)
+        table, found = script("score_study")(self.folder, "tooth", 2, 2, 300)
         self.assertEqual(len(table), 12)
         self.assertGreater(found["auc"], 0.7)
         told = burr.program.run("study", "reliability", self.folder / "marks.csv", "--marks", 2, "--json")

@@ -459,6 +459,7 @@ class Recordings(unittest.TestCase):
                 else:
                     self.assertEqual(one[key], other[key], (one["id"], key))
         self.assertEqual(mine["removed_share_of_target"], told["removed_share_of_target"])
+        self.assertEqual(mine["no_mark"], told["no_mark"])
 
     def test_a_file_is_not_overwritten(self):
         with self.assertRaisesRegex(burr.Error, "force=True"):

@@ -100,7 +100,9 @@ TEST(Score, NothingCutEarnsNothing) {
   EXPECT_FALSE(idle.outcomes[1].earned);
   EXPECT_EQ(idle.outcomes[2].verdict, Verdict::unmet);
   EXPECT_EQ(idle.worked, 0);
-  EXPECT_DOUBLE_EQ(idle.product.points.value_or(-1), 0);
+  EXPECT_FALSE(idle.product.points) << "there is no mark for no work";
+  EXPECT_EQ(idle.product.met, 0U);
+  EXPECT_EQ(idle.no_mark.why, NoMark::Why::part);
   EXPECT_EQ(idle.outcomes[3].verdict, Verdict::not_assessable);
   EXPECT_EQ(idle.outcomes[3].reason, "it needs a recording");
   EXPECT_FALSE(idle.process.points);

@@ -29,8 +29,8 @@ std::int64_t units_in(double depth) {
 }
 
 struct Sums {
-  std::int64_t bone = 0, removed = 0, excess = 0;  // products
-  std::int64_t all = 0;
+  std::int64_t bone = 0, removed = 0, excess = 0, lost = 0;  // products
+  std::int64_t all = 0, added = 0;
   std::int64_t border = 0;  // voxels that the region's border crosses
 };
 
@@ -68,8 +68,11 @@ void add_brick(const Bone& before, const Bone& after, BrickIndex brick, const Re
     const std::int64_t in = units_in(depth), gone = had - has;
     sums.bone += in * had;
     sums.removed += in * gone;
-    sums.excess += (volume::kVoxelUnits / kCoarse - units_in(depth + far)) * gone;
+    const std::int64_t beyond = volume::kVoxelUnits / kCoarse - units_in(depth + far);
+    sums.excess += beyond * gone;
+    sums.lost += beyond * std::max<std::int64_t>(gone, 0);
     sums.all += gone;
+    sums.added += std::max<std::int64_t>(-gone, 0);
     if (std::abs(depth) < 0.5) ++sums.border;
   }
 }
@@ -93,7 +96,9 @@ Sums sums_of(const Bone& before, const Bone& after, const Region& region, double
     all.bone += one.bone;
     all.removed += one.removed;
     all.excess += one.excess;
+    all.lost += one.lost;
     all.all += one.all;
+    all.added += one.added;
     all.border += one.border;
   }
   return all;
@@ -117,6 +122,8 @@ Assessed<Removed> removed_of(const Bone& before, const Bone& after, const Region
   out.removed = static_cast<double>(sums.removed) * square;
   out.missed = out.bone - out.removed;
   out.excess = static_cast<double>(sums.excess) * square;
+  out.lost = static_cast<double>(sums.lost) * square;
+  out.added = static_cast<double>(sums.added) * unit;
   out.all = static_cast<double>(sums.all) * unit;
   out.share = out.removed / out.bone;
   out.dice = 2 * out.removed / (out.bone + out.all);

@@ -3,6 +3,8 @@
 //     removed = sum over voxels of  share in R  *  (vol(f_before) - vol(f_after))
 //     missed  = V(R and bone before) - removed
 //     excess  = the same sum as removed, outside of R grown by g
+//     lost    = that sum over the voxels alone that hold less than before, so that nothing added makes up for it
+//     added   = sum over the voxels that hold more than before of  vol(f_after) - vol(f_before)
 //
 // vol is the volume of a voxel from its field (volume/volume_of.h); the share of a voxel in R comes
 // from R's depth by the same function. So a border of R across solid bone costs nothing; where the
@@ -26,7 +28,9 @@ struct Removed {
   double removed = 0;  // of it [m^3]
   double missed = 0;   // of it, still there [m^3]
   double excess = 0;   // removed outside of R grown by g [m^3]
+  double lost = 0;     // the same without what was added there [m^3]
   double all = 0;      // removed anywhere [m^3]
+  double added = 0;    // anywhere [m^3]
   double share = 0;    // removed / bone
   double dice = 0;     // 2 removed / (bone + all)
   double error = 0;    // of the share, if the cut ends where R does

@@ -143,6 +143,18 @@ scoring::Total total_of_gates(const Scored& scored) {
   return total;
 }
 
+std::string no_mark_of(const Scored& scored) {
+  const scoring::NoMark& none = scored.score.no_mark;
+  if (none.why != scoring::NoMark::Why::part)
+    return say(none.why == scoring::NoMark::Why::gone ? Word::report_no_mark_gone
+                                                      : Word::report_no_mark_added,
+               1e9 * none.elsewhere, 100 * none.share, 100 * scoring::kMostElsewhere);
+  const scenario::CaseRegion* part = scored.judged.lesson.region(none.part);
+  const std::string title = part != nullptr ? part->title.in(spoken().code) : "";
+  return say(Word::report_no_mark_part, title.empty() ? none.part : title, 100 * none.share,
+             100 * metrics::kLeastWork);
+}
+
 // Points only where somebody has compared every threshold with people.
 std::string note_of(const scoring::Rubric& rubric, Part part, const scoring::Total& total) {
   const bool calibrated = std::all_of(rubric.items.begin(), rubric.items.end(), [&](auto& item) {
@@ -217,7 +229,8 @@ std::vector<ReportPart> parts_of(const Scored& scored, const ReportSettings& set
     ReportPart& out = parts.emplace_back();
     out.title = word(part == Part::product ? Word::report_product : Word::report_process);
     out.met = met_of(total_of(scored.score));
-    out.note = note_of(rubric, part, total_of(scored.score));
+    out.note =
+        scored.score.no_mark ? no_mark_of(scored) : note_of(rubric, part, total_of(scored.score));
     if (settings.beside != nullptr) out.beside_met = met_of(total_of(settings.beside->score));
     for (const std::size_t n : in_order(rubric, scored.score.outcomes, part))
       out.items.push_back(item_of(scored, n, settings));

@@ -101,6 +101,11 @@ std::string total_line(const scoring::Rubric& rubric, Part part, const scoring::
       items, open, 100 * total.not_assessable, 100 * scoring::kMostUnknown);
 }
 
+std::string no_mark_line(const scoring::Score& score) {
+  const std::string why = scoring::text_of(score.no_mark);
+  return why.empty() ? "" : fmt::format("no mark: {}", why);
+}
+
 std::string safety_line(const scoring::Rubric& rubric, const scoring::Score& score) {
   using scoring::Standing;
   std::size_t all = 0, met = 0;
@@ -168,6 +173,7 @@ std::string score_json(const scoring::Rubric& rubric, const scoring::Score& scor
   row["unfinished"] = score.unfinished;
   row["ending"] = score.ending;
   row["removed_share_of_target"] = score.worked;
+  row["no_mark"] = scoring::text_of(score.no_mark);
   row["product"] = json_of(score.product);
   row["process"] = json_of(score.process);
   row["items"] = nlohmann::ordered_json::array();

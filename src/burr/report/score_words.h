@@ -20,6 +20,9 @@ namespace burr::report {
 [[nodiscard]] std::string total_line(const scoring::Rubric& rubric, scoring::Part part,
                                      const scoring::Total& total);
 
+// Why the work has no mark (scoring/whole_work.h), in one line; empty: it may have one.
+[[nodiscard]] std::string no_mark_line(const scoring::Score& score);
+
 // How many items of safety (gates) are met and which are not, in one line; empty: the rubric has none.
 [[nodiscard]] std::string safety_line(const scoring::Rubric& rubric, const scoring::Score& score);
 

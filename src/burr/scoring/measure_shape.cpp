@@ -37,14 +37,13 @@ Outcome at_most(const Item& item, double value, double most, double error, const
   return decided(item, {value <= most, true, value, most, error}, what, false);
 }
 
-// There is no shape. Who stops half-way must not lose the items from the denominator: see idle().
+// There is no shape, and that is the work's doing: a bone in which something was cut has one, where it was cut as
+// planned. So the items stay in the denominator: too early to say where too little was done, otherwise not met.
 template <class Shape>
 Outcome without(const Item& item, const metrics::Assessed<Shape>& shape) {
   Outcome none = not_assessable(item, shape.reason());
-  if (shape.too_little_done()) {
-    none.verdict = Verdict::unmet;
-    none.earned = false;
-  }
+  none.verdict = Verdict::unmet;
+  none.earned = !shape.too_little_done();
   return none;
 }
 

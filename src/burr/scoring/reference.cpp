@@ -14,20 +14,14 @@
 namespace burr::scoring {
 namespace {
 
-metrics::Region plan_of(const scenario::Reference& reference, Workpiece& scene) {
-  metrics::Region all = scene.regions(reference.remove);
-  for (const auto& [structure, thickness] : reference.leave)
-    if (!scene.tissues(structure).empty())
-      all = metrics::without(std::move(all), metrics::within(scene.distance(structure), thickness));
-  return all;
-}
-
 // Farther outside than this at its middle, a brick has nothing of a region [voxel].
 constexpr double kHalfDiagonal = 3.5 * 1.74;
 
 constexpr volume::TissueId kAdded = 1;  // of what is added, as in a session
 
-Status fill(volume::Bone& bone, const metrics::Region& plan) {
+}  // namespace
+
+Status fill_region(volume::Bone& bone, const metrics::Region& plan) {
   const volume::Grid& grid = bone.grid();
   constexpr int kEdge = volume::kBrickEdge;
   for (volume::BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {
@@ -59,21 +53,61 @@ Status fill(volume::Bone& bone, const metrics::Region& plan) {
   return fine();
 }
 
-}  // namespace
-
-Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
-                        const scenario::CaseLesson& lesson, Progress& progress) {
-  BURR_CHECK(lesson.reference && !lesson.reference->remove.empty());
+Result<ReferencePlan> reference_plan(const volume::Bone& before, const scenario::CaseLesson& lesson,
+                                     Progress& progress) {
   Workpiece scene(before, before, lesson, progress);
-  const metrics::Region plan = plan_of(*lesson.reference, scene);
+  ReferencePlan plan = reference_plan_of(scene);
   if (scene.stopped()) return error(Trouble::interrupted, "stopped");
-  const volume::Grid& grid = before.grid();
+  return plan;
+}
+
+ReferencePlan reference_plan_of(Workpiece& scene) {
+  const scenario::CaseLesson& lesson = scene.lesson();
+  BURR_CHECK(lesson.reference && !lesson.reference->remove.empty());
+  ReferencePlan plan;
+  for (const std::string& name : lesson.reference->remove) {
+    metrics::Region region = scene.region(name);
+    for (const auto& [structure, thickness] : lesson.reference->leave)
+      if (!scene.tissues(structure).empty())
+        region = metrics::without(std::move(region),
+                                  metrics::within(scene.distance(structure), thickness));
+    plan.remove.push_back({name, std::move(region)});
+  }
+  for (const std::string& name : lesson.reference->fill)
+    plan.fill.push_back({name, scene.region(name)});
+  return plan;
+}
+
+Result<std::vector<SparedStructure>> spared_structures(const volume::Bone& before,
+                                                       const scenario::CaseLesson& lesson,
+                                                       Progress& progress) {
+  Workpiece scene(before, before, lesson, progress);
+  std::vector<SparedStructure> all;
+  for (const scenario::Structure& one : lesson.structures) {
+    std::vector<volume::TissueId> tissues = scene.tissues(one.name);
+    if (one.intact != scenario::Intact::unsaid && !tissues.empty())
+      all.push_back({one.name, std::move(tissues), scene.distance(one.name)});
+  }
+  if (scene.stopped()) return error(Trouble::interrupted, "stopped");
+  return all;
+}
+
+metrics::Region all_of(const std::vector<ReferencePlan::Part>& parts) {
+  BURR_CHECK(!parts.empty());
+  metrics::Region all = parts.front().region;
+  for (std::size_t n = 1; n < parts.size(); ++n)
+    all = metrics::either(std::move(all), parts[n].region);
+  return all;
+}
+
+Status cut_region(volume::Bone& bone, const metrics::Region& plan, Progress& progress) {
+  const volume::Grid& grid = bone.grid();
   constexpr int kEdge = volume::kBrickEdge;
-  for (volume::BrickIndex brick = 0; brick < before.brick_count(); ++brick) {
+  for (volume::BrickIndex brick = 0; brick < bone.brick_count(); ++brick) {
     if (progress.cancelled()) return error(Trouble::interrupted, "stopped");
-    const volume::Field* old = before.brick_field(brick);
+    const volume::Field* old = bone.brick_field(brick);
     if (old == nullptr) continue;
-    const math::Ijk first = before.brick_ijk(brick);
+    const math::Ijk first = bone.brick_ijk(brick);
     // no region reaches farther than its depth at the middle says; the corners are this far away
     const math::Vec3 middle =
         grid.world_from_grid(first.cast<double>() + math::Vec3::Constant(3.5));
@@ -91,8 +125,15 @@ Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
     }
     if (cut) bone.write_brick(brick, now);
   }
-  if (!lesson.reference->fill.empty()) return fill(bone, scene.regions(lesson.reference->fill));
   return fine();
+}
+
+Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
+                        const scenario::CaseLesson& lesson, Progress& progress) {
+  const auto plan = reference_plan(before, lesson, progress);
+  if (!plan) return plan.error();
+  if (const Status cut = cut_region(bone, all_of(plan->remove), progress); !cut) return cut;
+  return plan->fill.empty() ? fine() : fill_region(bone, all_of(plan->fill));
 }
 
 }  // namespace burr::scoring

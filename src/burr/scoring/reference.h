@@ -7,12 +7,52 @@
 // Thread: one. Cost: a pass over all bricks.
 #pragma once
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "burr/base/progress.h"
 #include "burr/base/result.h"
+#include "burr/metrics/region.h"
 #include "burr/scenario/lesson.h"
 #include "burr/volume/bone.h"
+#include "burr/volume/distance_to.h"
 
 namespace burr::scoring {
+
+// What the reference says, as regions.
+struct ReferencePlan {
+  struct Part {
+    std::string name;  // of the region
+    metrics::Region region;
+  };
+  std::vector<Part> remove;  // each without what `leave` keeps; at least one
+  std::vector<Part> fill;
+};
+// lesson: with its landmarks placed and a reference. Error: interrupted.
+[[nodiscard]] Result<ReferencePlan> reference_plan(const volume::Bone& before,
+                                                   const scenario::CaseLesson& lesson,
+                                                   Progress& progress);
+class Workpiece;
+[[nodiscard]] ReferencePlan reference_plan_of(Workpiece& scene);
+// One region of several parts, at least one.
+[[nodiscard]] metrics::Region all_of(const std::vector<ReferencePlan::Part>& parts);
+
+// What a case says must stay intact in some way, and how far a point is from it.
+struct SparedStructure {
+  std::string name;
+  std::vector<volume::TissueId> tissues;
+  std::shared_ptr<const volume::DistanceTo> distance;
+};
+// Error: interrupted.
+[[nodiscard]] Result<std::vector<SparedStructure>> spared_structures(
+    const volume::Bone& before, const scenario::CaseLesson& lesson, Progress& progress);
+
+// Takes away what lies in a region. Error: interrupted.
+[[nodiscard]] Status cut_region(volume::Bone& bone, const metrics::Region& region,
+                                Progress& progress);
+// Adds material there. Error: Trouble::data if the bone has no room for it.
+[[nodiscard]] Status fill_region(volume::Bone& bone, const metrics::Region& region);
 
 // bone: equal to `before`; becomes the result. lesson: with its landmarks placed and a reference.
 // Errors: interrupted; Trouble::data if the bone has no room for what is added.

@@ -50,8 +50,9 @@ const Measure* read_measure(Reader& reader) {
 bool is_of_cavity(const Measure& how) { return std::string_view(how.name).starts_with("cavity_"); }
 
 std::vector<std::string_view> fields_of(const Measure& how) {
-  std::vector<std::string_view> fields = {"id",       "part",   "weight",     "gate", "measure",
-                                          "requires", "source", "calibrated", "say",  "grade"};
+  std::vector<std::string_view> fields = {"id",      "part",     "weight",   "gate",
+                                          "measure", "requires", "source",   "calibrated",
+                                          "say",     "grade",    "earned_by"};
   if (how.structure) fields.emplace_back("structure");
   if (how.region || how.anywhere) fields.emplace_back("region");
   if (how.along || how.on_curve) fields.emplace_back("along");
@@ -108,13 +109,15 @@ void read_item(Reader& reader, Item& out) {
   reader.text("plane", out.plane, out.how->on_plane);
   reader.text("within", out.within);
   reader.text("requires", out.needs);
+  reader.text("earned_by", out.earned_by);
   reader.text("source", out.source);
   reader.flag("calibrated", out.calibrated);
   scenario::read_texts(reader, "say", out.say, true);
   read_limits(reader, out);
   read_grade(reader, out);
   out.lines[""] = reader.line();
-  for (const char* field : {"structure", "region", "along", "plane", "within", "requires"})
+  for (const char* field :
+       {"structure", "region", "along", "plane", "within", "requires", "earned_by"})
     out.lines[field] = reader.line(field);
 }
 
@@ -171,9 +174,9 @@ bool has_direction(const scenario::Landmark& curve) {
 Error missing(const Rubric& rubric, const Item& item, const char* field, const std::string& name,
               const std::string& known) {
   const std::string_view named = field;
-  const std::string_view kind = named == "along"    ? "curve among its landmarks"
-                                : named == "within" ? "region"
-                                                    : named;
+  const std::string_view kind = named == "along" ? "curve among its landmarks"
+                                : named == "within" || named == "earned_by" ? "region"
+                                                                            : named;
   return error(fmt::format("{}: line {}: {}: the case \"{}\" has no {} \"{}\"; use one of {}",
                            rubric.file, item.lines.at(field), field,
                            base::printable(rubric.case_name), kind, base::printable(name), known));
@@ -265,6 +268,8 @@ Status check(const Rubric& rubric, const scenario::CaseLesson& lesson) {
       return missing(rubric, item, "region", item.region, list_of(lesson.regions, name));
     if (!item.within.empty() && lesson.region(item.within) == nullptr)
       return missing(rubric, item, "within", item.within, list_of(lesson.regions, name));
+    if (!item.earned_by.empty() && lesson.region(item.earned_by) == nullptr)
+      return missing(rubric, item, "earned_by", item.earned_by, list_of(lesson.regions, name));
     const auto landmark = [&](const char* field, const std::string& wanted, auto is) {
       std::vector<scenario::Landmark> of_kind;
       for (const scenario::Landmark& one : lesson.landmarks)

@@ -33,7 +33,10 @@ struct Item {
   // The values that earn nothing and everything, linear between; SI, in the quantity of the measure.
   // None: met earns everything, unmet nothing. The verdict is by the threshold alone.
   std::optional<std::pair<double, double>> grade;
-  std::string needs;        // `requires` in the file: an item that must be met too; empty: none
+  std::string needs;  // `requires` in the file: an item that must be met too; empty: none
+  // The region whose work earns the item: below metrics::kLeastWork of it the item is not met, and it is too
+  // early to say more. Empty: what the case says to remove in whole decides, where the measure asks for it.
+  std::string earned_by;
   std::string source;       // where the item and its thresholds come from
   bool calibrated = false;  // somebody compared the thresholds with people
   scenario::Texts say;

@@ -19,6 +19,7 @@
 #include "burr/scoring/outcome.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/shown.h"
+#include "burr/scoring/whole_work.h"
 #include "burr/volume/bone.h"
 
 namespace burr::scoring {
@@ -29,6 +30,7 @@ namespace burr::scoring {
 struct Score {
   std::vector<Outcome> outcomes;  // one for each item of the rubric, in its order
   Total product, process;
+  NoMark no_mark;          // why neither has points, where the work is not that of the case
   double worked = 0;       // share removed of what the case says to remove
   bool unfinished = true;  // the work was not declared done
   std::string ending;      // "declared done", "time up", "broke off", or why it is not known
