@@ -52,7 +52,7 @@ ALLOWED = {
     "mouse": "workshop device render scenario rt",
     "lrs": "school net",
     "workshop": "sim edit tick record importing io phantom surgeon scenario surface render sound device volume tool rt",
-    "proof": "workshop scoring scenario volume",
+    "proof": "report workshop scoring metrics surgeon sim record scenario people tick device tool volume",
     "dataset": "workshop sim record render surface tick device volume tool",
 }
 # Headers that lie in no room: each is a list of the public headers of these rooms.
@@ -88,7 +88,8 @@ ONLY = {
     ("guidance", "workshop"): {"label_check.h"},
     ("report", "edit"): {"piece_store.h"},
     ("report", "sim"): {"move_pieces.h"},
-    ("proof", "workshop"): {"label_check.h", "open_bone.h", "other_bone.h", "prepare.h"},
+    ("proof", "workshop"): {"label_check.h", "open_bone.h", "other_bone.h", "prepare.h", "recording.h"},
+    ("proof", "people"): {"random_stream.h"},
     ("mouse", "scenario"): {"rack.h"},
     ("mouse", "workshop"): {"device_book.h"},
 }

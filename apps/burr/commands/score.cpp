@@ -1,9 +1,7 @@
 // `burr score`: a recording against a rubric, item by item.
-// `burr rubric check`: reads a rubric and runs it on the untouched bone of its case.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -18,16 +16,9 @@
 #include "burr/report/piece_words.h"
 #include "burr/report/score_words.h"
 #include "burr/report/scored.h"
-#include "burr/scenario/case.h"
-#include "burr/scenario/lesson.h"
-#include "burr/scoring/reference.h"
 #include "burr/scoring/rubric.h"
 #include "burr/scoring/score.h"
-#include "burr/workshop/case_session.h"
-#include "burr/workshop/open_bone.h"
-#include "burr/workshop/other_bone.h"
-#include "burr/workshop/prepare.h"
-#include "shared/bone_option.h"
+#include "score_items.h"
 #include "shared/front_words.h"
 #include "shared/json_line.h"
 #include "shared/subcommand.h"
@@ -40,22 +31,10 @@ constexpr const char* kDefaults =
     "(default): nobody has compared this threshold with people. burr gives no grade and no pass.";
 
 struct Options {
-  std::string source, rubric, explain, work_case;
-  std::uint32_t bone = 0;
+  std::string source, rubric, explain;
   scenario::BoneRecipe volume;
   bool json = false;
 };
-
-void print_items(const scoring::Rubric& rubric, const scoring::Score& score) {
-  for (const scoring::Part part : {scoring::Part::product, scoring::Part::process}) {
-    if (std::none_of(rubric.items.begin(), rubric.items.end(),
-                     [&](const auto& item) { return item.part == part; }))
-      continue;
-    fmt::print("{}\n", scoring::word_of(part));
-    for (const std::size_t n : scoring::in_order(rubric, score.outcomes, part))
-      fmt::print("{}\n", report::item_line(rubric.items[n], score.outcomes[n]));
-  }
-}
 
 std::string ids_of(const scoring::Rubric& rubric) {
   std::string list;
@@ -115,6 +94,8 @@ Status run_score(const Options& options, CommandResult* given) {
          {report::total_line(rubric, scoring::Part::product, score.product),
           report::total_line(rubric, scoring::Part::process, score.process)})
       if (!line.empty()) fmt::print("{}\n", line);
+    if (const std::string none = report::no_mark_line(score); !none.empty())
+      fmt::print("{}\n", none);
     fmt::print("{}: {}; {:.0f} % of the bone that the case says to remove is gone\n",
                score.unfinished ? "unfinished" : "finished", score.ending, 100 * score.worked);
     if (!made->pieces.empty())
@@ -128,85 +109,6 @@ Status run_score(const Options& options, CommandResult* given) {
   fmt::print("{}\n", kDefaults);
   if (options.json) fmt::print("{}\n", json_line(result_of(*made, changed)));
   return fine();
-}
-
-// Work that follows the plan of the case exactly must meet the product. Items that need a recording count
-// as met here, so that those which require them are looked at.
-Status check_reference(const Options& options, const scoring::Rubric& rubric,
-                       const scenario::Case& work, const scenario::CaseLesson& lesson,
-                       const volume::Bone& before) {
-  if (!lesson.reference || lesson.reference->remove.empty()) {
-    fmt::print(
-        "the case \"{}\" has no [reference] with regions to remove, so it was not checked that "
-        "good work meets the rubric\n",
-        base::printable(work.name));
-    return fine();
-  }
-  const auto made = workshop::open_bone(workshop::recipe_of(work, options.volume), progress());
-  if (!made) return made.error();
-  if (const Status cut = scoring::cut_to_reference(*made->bone, before, lesson, progress()); !cut)
-    return cut;
-  scoring::Rubric alone = rubric;
-  for (scoring::Item& item : alone.items)
-    if (const scoring::Item* other = rubric.item(item.needs);
-        other != nullptr && scoring::needs_recording(*other))
-      item.needs.clear();
-  const auto score = scoring::score(alone, lesson, before, *made->bone, nullptr, progress());
-  if (!score) return score.error();
-  fmt::print("on the reference result of {}\n", base::printable(work.name));
-  print_items(alone, *score);
-  std::string unmet;
-  for (std::size_t n = 0; n < rubric.items.size(); ++n)
-    if (rubric.items[n].part == scoring::Part::product &&
-        score->outcomes[n].verdict == scoring::Verdict::unmet)
-      unmet += (unmet.empty() ? "" : ", ") + base::printable(rubric.items[n].id);
-  if (!unmet.empty())
-    return error(Trouble::data,
-                 fmt::format("{}: the reference result of the case does not meet {}; change these "
-                             "items, or [reference] in the case",
-                             rubric.file, unmet));
-  fmt::print(
-      "the reference result meets {} of {} items of the product; the others need a recording\n",
-      score->product.met, score->product.items);
-  return fine();
-}
-
-// Nobody may earn a point of the product with an untouched bone.
-Status run_check(const Options& options) {
-  const auto rubric = scoring::read_rubric(options.rubric);
-  if (!rubric) return rubric.error();
-  auto work =
-      scenario::read_case(options.work_case.empty() ? rubric->case_source : options.work_case);
-  if (!work) return work.error();
-  if (const Status taken = workshop::take_bone(*work, options.bone); !taken) return taken;
-  if (const Status set = workshop::check_session(*work); !set) return set;
-  const auto lesson = report::lesson_for(*work, *rubric);
-  if (!lesson) return lesson.error();
-  const auto made = workshop::open_bone(workshop::recipe_of(*work, options.volume), progress());
-  if (!made) return made.error();
-  const auto score =
-      scoring::score(*rubric, *lesson, *made->bone, *made->bone, nullptr, progress());
-  if (!score) return score.error();
-  fmt::print("{}: {} items, on the untouched bone of {}\n", rubric->file, rubric->items.size(),
-             base::printable(work->name));
-  print_items(*rubric, *score);
-  std::string met;
-  for (std::size_t n = 0; n < rubric->items.size(); ++n)
-    if (score->outcomes[n].verdict == scoring::Verdict::met)
-      met += (met.empty() ? "" : ", ") + base::printable(rubric->items[n].id);
-  if (!met.empty())
-    return error(Trouble::data,
-                 fmt::format("{}: an untouched bone meets {}; make these items stricter",
-                             rubric->file, met));
-  if (score->product.assessable == 0)
-    return error(
-        Trouble::data,
-        fmt::format("{}: no item of the product can be assessed on the bone of the case \"{}\"; "
-                    "the reasons are above",
-                    rubric->file, base::printable(work->name)));
-  fmt::print("the untouched bone meets no item of the product; {} of {} were assessed\n",
-             score->product.assessable, score->product.items);
-  return check_reference(options, *rubric, *work, *lesson, *made->bone);
 }
 
 // chosen: gets the options when they were parsed.
@@ -237,23 +139,7 @@ void add_row(CLI::App& app, RowTodo& todo) {
   });
 }
 
-void add_rubric(CLI::App& app, Todo& todo) {
-  auto* command = app.add_subcommand("rubric", "check a rubric");
-  command->require_subcommand(1);
-  auto options = std::make_shared<Options>();
-  auto* check = command->add_subcommand(
-      "check",
-      "read a rubric and run it on the untouched bone of its case, which must meet nothing");
-  check->add_option("rubric", options->rubric, "a built-in rubric, or a .toml file")->required();
-  check->add_option("--case", options->work_case,
-                    "the case, built in or a .toml file (default: the one that the rubric names)");
-  add_bone_option(*check, options->bone);
-  add_volume_options(*check, options->volume);
-  check->callback([options, &todo] { todo.work = [options] { return run_check(*options); }; });
-}
-
 const Command score_command{66, add_score};
-const Command rubric_command{67, add_rubric};
 const RowCommand row_command{"score", add_row};
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,13 +13,11 @@
 
 #include "batch/row_command.h"
 #include "burr/base/printable.h"
-#include "burr/record/course.h"
-#include "burr/record/view.h"
+#include "burr/proof/assistant.h"
 #include "burr/scenario/case.h"
 #include "burr/sim/session.h"
 #include "burr/surgeon/surgeon.h"
 #include "burr/tick/flag_words.h"
-#include "burr/tool/state.h"
 #include "burr/workshop/label_check.h"
 #include "burr/workshop/open_bone.h"
 #include "burr/workshop/other_bone.h"
@@ -38,10 +35,7 @@
 namespace burr::app {
 namespace {
 
-using math::Vec3;
-
-constexpr double kLongest = 5400;     // if nobody says how long; the same for all levels [s]
-constexpr double kFieldOfView = 0.2;  // of the recorded view, as through a microscope [rad]
+constexpr double kLongest = 5400;  // if nobody says how long; the same for all levels [s]
 
 struct Options {
   std::string work_case, level = "expert", record;
@@ -80,77 +74,7 @@ Result<surgeon::Skill> skill_of(const Options& options) {
   return skill;
 }
 
-// What the surgeon does beside the hand's movements: other burrs, notes for the recording.
-class Assistant {
- public:
-  Assistant(surgeon::Surgeon& surgeon, sim::Session& session, record::Diary* diary)
-      : surgeon_(surgeon), session_(session), diary_(diary) {}
-
-  // Before a tick.
-  void work() {
-    const std::uint64_t tick = session_.ticks();
-    if (tick == 0) session_.command({tick::CommandKind::irrigation, 1});
-    const surgeon::Consulted consulted = surgeon_.consult(session_.bone());
-    if (consulted.burr) {
-      session_.command({tick::CommandKind::burr_kind,
-                        consulted.burr->kind == tool::BurrKind::diamond ? 1.0 : 0.0});
-      session_.command({tick::CommandKind::burr_radius, consulted.burr->radius});
-    }
-    if (consulted.adds)
-      session_.command({tick::CommandKind::tool_mode,
-                        static_cast<double>(*consulted.adds ? tool::Mode::add : tool::Mode::cut)});
-    for (const surgeon::SurgeonNote& note : consulted.notes) tell(note, tick);
-    if (consulted.eye && diary_ != nullptr) diary_->look({.view = view(*consulted.eye, tick)});
-  }
-
-  [[nodiscard]] bool done() const { return done_; }
-  [[nodiscard]] const nlohmann::json& steps() const { return steps_; }
-
- private:
-  void tell(const surgeon::SurgeonNote& note, std::uint64_t tick) {
-    if (note.kind == surgeon::NoteKind::done) {
-      done_ = true;
-      if (diary_ != nullptr) diary_->declare_done(tick, true);
-      return;
-    }
-    const bool begins = note.kind == surgeon::NoteKind::step_begun;
-    const double seconds = static_cast<double>(tick) / session_.settings().servo.rate_hz;
-    if (begins) {
-      steps_.push_back({{"step", note.step}, {"from_s", seconds}});
-    } else {
-      steps_.back()["to_s"] = seconds;
-      steps_.back()["left"] = note.left;
-    }
-    if (diary_ != nullptr)
-      static_cast<void>(diary_->note(
-          {tick, begins ? record::CourseKind::step_begun : record::CourseKind::step_done,
-           note.step}));
-  }
-
-  static record::View view(const surgeon::Eye& eye, std::uint64_t tick) {
-    record::View view;
-    view.tick = tick;
-    view.eye = eye.at;
-    view.back = eye.back;
-    // upright as far as the look allows
-    const Vec3 up = std::abs(eye.back.z()) < 0.9 ? Vec3(Vec3::UnitZ()) : Vec3(-Vec3::UnitY());
-    view.right = up.cross(eye.back).normalized();
-    view.up = view.back.cross(view.right).normalized();
-    view.field_of_view = kFieldOfView;
-    view.magnification = record::magnification_of(2 * kEye * std::tan(0.5 * kFieldOfView));
-    view.slices = view.panels = view.colours = false;
-    return view;
-  }
-
-  static constexpr double kEye = 0.3;  // from the eye to the bone [m]
-  surgeon::Surgeon& surgeon_;
-  sim::Session& session_;
-  record::Diary* diary_;
-  bool done_ = false;
-  nlohmann::json steps_ = nlohmann::json::array();
-};
-
-void print(const Options& options, sim::Session& session, const Assistant& assistant,
+void print(const Options& options, sim::Session& session, const proof::Assistant& assistant,
            const CommandResult& findings) {
   const sim::Outcome outcome = session.outcome();
   if (!options.json) {
@@ -158,13 +82,11 @@ void print(const Options& options, sim::Session& session, const Assistant& assis
     fmt::print("{}, seed {}: {:.1f} s, {:.1f} mm3 removed, {:.2f} N mean in contact; {}\n",
                options.level, options.seed, outcome.seconds, 1e9 * outcome.ledger.removed,
                outcome.mean_force, ending);
-    for (const auto& step : assistant.steps())
-      fmt::print("  {}: from {:.1f} s{}\n", base::printable(step["step"].get<std::string>()),
-                 step["from_s"].get<double>(),
-                 step.contains("to_s")
-                     ? fmt::format(" to {:.1f} s, {:.1f} % of its plan left",
-                                   step["to_s"].get<double>(), 100 * step["left"].get<double>())
-                     : "");
+    for (const proof::StepDone& step : assistant.steps())
+      fmt::print("  {}: from {:.1f} s{}\n", base::printable(step.step), step.from_s,
+                 step.to_s ? fmt::format(" to {:.1f} s, {:.1f} % of its plan left", *step.to_s,
+                                         100 * step.left)
+                           : "");
     for (const std::string& sentence : tick::words(tick::worth_telling(outcome.flags)))
       fmt::print("noted: {}\n", sentence);
     return;
@@ -172,8 +94,17 @@ void print(const Options& options, sim::Session& session, const Assistant& assis
   fmt::print("{}\n", json_line(findings.whole()));
 }
 
-CommandResult result_of(const Options& options, sim::Session& session, const Assistant& assistant,
-                        const Recording& recording) {
+nlohmann::json steps_of(const proof::Assistant& assistant) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const proof::StepDone& step : assistant.steps()) {
+    all.push_back({{"step", step.step}, {"from_s", step.from_s}});
+    if (step.to_s) all.back().update({{"to_s", *step.to_s}, {"left", step.left}});
+  }
+  return all;
+}
+
+CommandResult result_of(const Options& options, sim::Session& session,
+                        const proof::Assistant& assistant, const Recording& recording) {
   const sim::Outcome outcome = session.outcome();
   CommandResult findings;
   nlohmann::json& out = findings.result;
@@ -184,7 +115,7 @@ CommandResult result_of(const Options& options, sim::Session& session, const Ass
   out["removed_mm3"] = 1e9 * outcome.ledger.removed;
   out["mean_force_N"] = outcome.mean_force;
   out["ending"] = assistant.done() ? "declared done" : interrupted() ? "stopped" : "time up";
-  out["steps"] = assistant.steps();
+  out["steps"] = steps_of(assistant);
   out["noted"] = tick::words(tick::worth_telling(outcome.flags));
   out["bone_hash"] = record::hex(session.bone().content_hash());
   if (!options.record.empty()) findings.times["recording"] = recording.account();
@@ -224,7 +155,7 @@ Status run(const Options& options, CommandResult* given) {
         options.embed, workshop::to_spare(session.bone_tissues(), work->spare), *work);
     if (!started) return started;
   }
-  Assistant assistant(**surgeon, session, recording.diary());
+  proof::Assistant assistant(**surgeon, session, recording.diary());
   session.set_between_ticks([&assistant] { assistant.work(); }, surgeon::kConsultTicks);
   session.run(options.seconds, progress());
   const Status recorded = options.record.empty() ? fine() : recording.finish(session);

@@ -165,7 +165,7 @@ DepthMm read_shape(const std::string& kind, ShapeWords& words) {
 // One or several shapes with "&" between them, without the sign.
 Result<DepthMm> read_all_of(const std::string& text, const Places& places) {
   std::vector<DepthMm> all;
-  std::istringstream parts(text);
+  std::istringstream parts(text + '&');  // so that what stands behind the last one counts, too
   for (std::string part; std::getline(parts, part, '&');) {
     ShapeWords words(part, places);
     std::string kind, more;
