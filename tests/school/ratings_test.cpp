@@ -286,7 +286,9 @@ TEST_P(RatingsTest, WhatIsNotSealedProposesNothingAndSetsNoStandard) {
   const auto none = decide(store(), {"kestrel-27", id, "pass", "", "because"}, &*key);
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().text.find("no sealed, finished session"), std::string::npos);
-  for (const SessionRow& row : *sessions_of(store(), "")) EXPECT_EQ(row.standing, "no seal");
+  const auto rows = sessions_of(store(), "");
+  ASSERT_TRUE(rows);
+  for (const SessionRow& row : *rows) EXPECT_EQ(row.standing, "no seal");
 }
 
 TEST_P(RatingsTest, ADecisionHasAPersonAReasonAStandardAndItsSessions) {
