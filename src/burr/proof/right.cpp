@@ -27,9 +27,9 @@ void each_part(const volume::Bone& bone, int parts, const Near& near, const Foun
     const Vec3 first = bone.brick_ijk(brick).cast<double>();
     if (!near(Vec3(grid.world_from_grid(first + Vec3::Constant(3.5)) * 1e3))) continue;
     for (int n = 0; n < edge * edge * edge; ++n) {
-      const Vec3 at = first +
-                      Vec3(n % edge + 0.5, n / edge % edge + 0.5, n / (edge * edge) + 0.5) / parts -
-                      Vec3::Constant(0.5);
+      const math::Ijk part(n % edge, n / edge % edge, n / (edge * edge));
+      const Vec3 at =
+          first + (part.cast<double>() + Vec3::Constant(0.5)) / parts - Vec3::Constant(0.5);
       found(Vec3(grid.world_from_grid(at) * 1e3), volume::sample(bone, at) - volume::kIsoShare);
     }
   }

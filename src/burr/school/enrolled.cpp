@@ -10,7 +10,7 @@
 namespace burr::school {
 namespace {
 
-constexpr std::int64_t kSlack_ms = 2000;  // between the clock of the ticks and the store's
+constexpr std::int64_t kSlackMs = 2000;  // between the clock of the ticks and the store's
 
 Error refused(const std::string& why) { return error(Trouble::usage, why); }
 
@@ -108,13 +108,13 @@ Status check_end(Store& store, const SessionRecord& record, const Wrote& wrote) 
   if (!wrote.ended_ms)
     return refused(
         "its nonce was never closed in this store; enter it into the store that closed it");
-  if (seal.ended_ms - seal.given_ms > kNonceLives_ms)
+  if (seal.ended_ms - seal.given_ms > kNonceLivesMs)
     return refused(
         fmt::format("its nonce was closed more than {} hours after it was given, so it is "
                     "too old; repeat the session",
-                    hours(kNonceLives_ms)));
+                    hours(kNonceLivesMs)));
   const auto lasted = static_cast<std::int64_t>(1000 * record.seconds);
-  if (lasted > seal.ended_ms - seal.given_ms + kSlack_ms)
+  if (lasted > seal.ended_ms - seal.given_ms + kSlackMs)
     return refused(
         fmt::format("the session lasts {:.0f} s, and by the store's clock only {:.0f} s went by, "
                     "so nobody worked "

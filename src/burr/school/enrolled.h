@@ -38,7 +38,7 @@ struct Enrolled {
 [[nodiscard]] Status revoke(Store& store, const std::string& name);
 
 // A nonce must be closed within this time.
-inline constexpr std::int64_t kNonceLives_ms = 24LL * 3600 * 1000;
+inline constexpr std::int64_t kNonceLivesMs = 24LL * 3600 * 1000;
 
 struct Given {
   std::string nonce;
