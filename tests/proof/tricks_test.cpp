@@ -1,4 +1,4 @@
-// Cheap ways to a mark: what each leaves of the block, by closed form, and that a rubric which can be beaten is told so.
+// Cheap ways to a mark: what each leaves of the block, by closed form; a rubric that one of them beats is named.
 #include "burr/proof/tricks.h"
 
 #include <gtest/gtest.h>
@@ -85,6 +85,28 @@ TEST(Tricks, TellARubricThatCanBeBeaten) {
   EXPECT_EQ(half.earned, std::vector<std::string>{"begun"});
   EXPECT_FALSE(named(marks->tricks, "nothing").beats);
   EXPECT_FALSE(named(marks->tricks, "everything").beats) << "it is gone, and the block too";
+}
+
+// A case without a reference: a sentence, and no cheap way is made up.
+TEST(Tricks, NeedAReference) {
+  const test::Folder folder;
+  const std::string file = (folder.path() / "weak.toml").string(),
+                    work_file = (folder.path() / "plain.toml").string();
+  const auto block = scenario::read_case("block");
+  ASSERT_TRUE(block);
+  std::ofstream(work_file) << block->text.substr(0, block->text.find("[reference]"));
+  std::ofstream(file) << "[rubric]\nname = \"weak\"\nversion = 1\ncase = \"plain.toml\"\n"
+                         "[[item]]\nid = \"begun\"\npart = \"product\"\nmeasure = \"removed\"\n"
+                         "region = \"groove\"\nshare = 0.5\nsay.en = \"Begin.\"\n";
+  const auto work = scenario::read_case(work_file);
+  ASSERT_TRUE(work) << work.error().text;
+  NoProgress quiet;
+  const auto marks = cheap_marks(file, *work, {}, {.careless = 1}, quiet);
+  ASSERT_FALSE(marks);
+  EXPECT_EQ(
+      marks.error().text,
+      "weak.toml: the case \"plain\" has no [reference] with regions to remove, from which cheap "
+      "ways to a mark are made; add it to the case");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "burr/base/printable.h"
 #include "burr/proof/scripted_session.h"
 #include "burr/proof/tricks.h"
 #include "burr/report/scored.h"
@@ -155,6 +156,11 @@ Result<CheapMarks> cheap_marks(const std::string& rubric_place, const scenario::
   if (!rubric) return rubric.error();
   const auto lesson = report::lesson_for(work, *rubric);
   if (!lesson) return lesson.error();
+  if (!lesson->reference || lesson->reference->remove.empty())
+    return error(Trouble::data,
+                 fmt::format("{}: the case \"{}\" has no [reference] with regions to remove, from "
+                             "which cheap ways to a mark are made; add it to the case",
+                             rubric->file, base::printable(work.name)));
   const scenario::BoneRecipe whole = workshop::recipe_of(work, recipe);
   const auto tried =
       try_tricks(*rubric, *lesson, whole, 2 * work.burr.radius, settings.seed, progress);

@@ -7,8 +7,6 @@
 // Cost: the bricks that a shape reaches. The bones must live as long as this.
 #pragma once
 
-#include <vector>
-
 #include "burr/base/result.h"
 #include "burr/proof/known_shape.h"
 #include "burr/volume/bone.h"
@@ -25,9 +23,6 @@ class CutBone {
   void restore();
 
  private:
-  [[nodiscard]] Status add(volume::BrickIndex brick, const Work& work);
-  void take(volume::BrickIndex brick, const Work& work);
-
   volume::Bone& bone_;
   const volume::Bone& before_;
 };

@@ -14,6 +14,7 @@
 #include "burr/people/random_stream.h"
 #include "burr/scoring/reference.h"
 #include "burr/volume/copy_of_bone.h"
+#include "burr/volume/cut_by_depth.h"
 #include "burr/workshop/open_bone.h"
 
 namespace burr::proof {
@@ -218,9 +219,9 @@ class Trial {
 
 Status leave(const Trick& trick, volume::Bone& bone, Progress& progress) {
   for (const Region& one : trick.cut)
-    if (const Status cut = scoring::cut_region(bone, one, progress); !cut) return cut;
+    if (const Status cut = volume::cut_by_depth(bone, one, progress); !cut) return cut;
   for (const Region& one : trick.fill)
-    if (const Status filled = scoring::fill_region(bone, one); !filled) return filled;
+    if (const Status filled = volume::fill_by_depth(bone, one); !filled) return filled;
   return fine();
 }
 

@@ -1,4 +1,4 @@
-// proof/tricks.h - cheap ways to a mark: what somebody would try who wants one without the work.
+// proof/tricks.h - cheap ways to a mark: bones that are cut without doing the work of the case.
 //
 //     auto tried = proof::try_tricks(rubric, lesson, recipe, progress);
 //     the best of them must stay below what careless, honest work earns (proof/cheap_marks.h)

@@ -48,12 +48,6 @@ struct SparedStructure {
 [[nodiscard]] Result<std::vector<SparedStructure>> spared_structures(
     const volume::Bone& before, const scenario::CaseLesson& lesson, Progress& progress);
 
-// Takes away what lies in a region. Error: interrupted.
-[[nodiscard]] Status cut_region(volume::Bone& bone, const metrics::Region& region,
-                                Progress& progress);
-// Adds material there. Error: Trouble::data if the bone has no room for it.
-[[nodiscard]] Status fill_region(volume::Bone& bone, const metrics::Region& region);
-
 // bone: equal to `before`; becomes the result. lesson: with its landmarks placed and a reference.
 // Errors: interrupted; Trouble::data if the bone has no room for what is added.
 [[nodiscard]] Status cut_to_reference(volume::Bone& bone, const volume::Bone& before,
